@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Two-dimensional geometry of OpenSCAD's planar nodes, exact, and the solids made from it.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "exactcsg/solid/solid.hpp"
+
+namespace exactcsg::io {
+
+struct Point2 {
+  Rational x, y;
+  friend bool operator==(const Point2&, const Point2&) = default;
+};
+
+// A filled figure: closed paths under the even-odd rule (holes, crossings and coincident edges are
+// allowed; they mean what even-odd says). Orientation does not matter.
+struct PlanarFigure {
+  std::vector<std::vector<Point2>> paths;
+};
+
+using PlanarTree = csg::Tree<PlanarFigure, csg::BooleanOperator>;
+
+// x -> M x + t: {{M00, M01, t0}, {M10, M11, t1}}.
+struct AffineMap2 {
+  std::array<std::array<Rational, 3>, 2> m;
+};
+PlanarTree apply(const AffineMap2& map, const PlanarTree& tree);  // singular maps give Empty
+
+// The outline of the regularised set as simple loops, outer counter-clockwise, holes clockwise, no
+// two touching except at vertices; collinear vertices removed. [Exact]
+PlanarFigure resolve(const PlanarTree& tree);
+
+// Convex, pairwise interior-disjoint polygons (counter-clockwise) that cover the figure; conforming:
+// their union's boundary vertices are the figure's. [Exact]
+std::vector<std::vector<Point2>> convex_parts(const PlanarFigure& figure);
+
+// Counter-clockwise vertices of the convex hull; fewer than three: empty interior. [Exact]
+std::vector<Point2> hull(const PlanarTree& tree);
+
+struct LinearExtrusion {
+  Rational lower, upper;             // z range
+  std::array<Rational, 2> scale{1, 1};  // of the top
+  // One entry a level above the bottom, ascending: how level j of s is turned and scaled. Empty: no
+  // twist (one slice). The unit directions (cosine, sine) are rounded doubles made exact.
+  struct Level {
+    Rational cosine, sine;
+    std::array<Rational, 2> scale;
+  };
+  std::vector<Level> levels;
+};
+
+// Without twist and scale: the tree itself with every figure as a prism (no Boolean is evaluated in
+// two dimensions). Otherwise the resolved outline's swept mesh, quadrilaterals split along the
+// shorter diagonal in xy as OpenSCAD does; scale 0 ends in an apex or a ridge.
+Solid linear_extrude(const PlanarTree& tree, const LinearExtrusion& extrusion);
+
+// The outline (x >= 0 after mirroring if it is all x <= 0) turned about the z axis through the given
+// unit directions, one per ring; `closed` joins the last ring to the first.
+// THROWS Error(BadArgument) if the outline lies on both sides of x = 0.
+Solid rotate_extrude(const PlanarTree& tree, std::span<const std::array<Rational, 2>> directions,
+                     bool closed);
+
+// The convex hull of points, as one primitive; Empty if they are all in one plane. [Exact]
+Solid hull(std::span<const Point3> points);
+
+// The convex hull of a solid: of the primitives' vertices where it is a union of bounded primitives,
+// otherwise of the vertices of its evaluated boundary.
+Solid hull(const Solid& solid);
+
+}  // namespace exactcsg::io

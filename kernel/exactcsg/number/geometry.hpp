@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// The points and planes of one evaluation, and every sign that the evaluator asks of them.
+//
+// A Geometry holds exact points and planes once each: equal points share one id, coincident planes
+// (either sense) share one PlaneRef. It is immutable once built and may be read by any number of
+// threads; exact plane coefficients are computed lazily, at most a few times, and published
+// atomically.
+//
+// A Vertex is a small value: an input point, or the meeting point of three planes. It always carries
+// a certified double position: the true coordinates differ from (x, y, z) by at most `error` each.
+//
+// Every predicate answers exactly, through the four tiers of docs/exactness.md (symbolic, double
+// filter, fixed-width integers, unbounded integers), and counts the tier in the statistics it is
+// handed (one object a task or thread; never shared).
+//
+// Exact. Source: DESIGN section 3 (docs/exactness.md); the tiers after google/s2geometry.
+
+#include <compare>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "exactcsg/number/point.hpp"
+#include "exactcsg/number/tier_statistics.hpp"
+
+namespace exactcsg {
+
+enum class Axis : unsigned char { X, Y, Z };
+
+enum class PointId : std::uint32_t {};
+
+// A plane without orientation beyond that of its own stored normal: a plane of the table, or a wall
+// {axis = position}, whose normal points along the positive axis and which needs no table.
+class PlaneRef {
+ public:
+  constexpr PlaneRef() = default;
+  static constexpr PlaneRef of_table(std::uint32_t index) {
+    return PlaneRef(static_cast<std::uint64_t>(index) << 2U);
+  }
+  // REQUIRES position == round_wall_position(position)
+  static PlaneRef of_wall(Axis axis, double position);
+
+  constexpr bool is_wall() const { return (bits_ & 3U) != 0; }
+  constexpr std::uint32_t table_index() const { return static_cast<std::uint32_t>(bits_ >> 2U); }
+  Axis wall_axis() const;
+  double wall_position() const;
+  constexpr std::uint64_t bits() const { return bits_; }
+  friend constexpr auto operator<=>(PlaneRef, PlaneRef) = default;
+
+ private:
+  explicit constexpr PlaneRef(std::uint64_t bits) : bits_(bits) {}
+  // The low two bits: 0 table index above, 1..3 wall of axis X..Z with the upper 62 bits of the
+  // double above.
+  std::uint64_t bits_ = ~std::uint64_t{3};
+};
+
+// The nearest double below or equal in magnitude whose last two mantissa bits are zero: wall
+// positions are such doubles, so that a PlaneRef can hold them.
+double round_wall_position(double position);
+
+// One side's sense of a stored plane: `sense` +1 if the oriented plane has the stored normal.
+struct OrientedPlaneRef {
+  PlaneRef plane;
+  signed char sense = 1;
+  friend constexpr auto operator<=>(const OrientedPlaneRef&, const OrientedPlaneRef&) = default;
+};
+
+struct Vertex {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+  double error = 0;  // certified: |true - stored| <= error for each coordinate
+  PlaneRef planes[3];  // of a meeting point: three planes in ascending order of bits()
+  PointId point{};
+  bool is_point = false;
+
+  double coordinate(Axis axis) const { return axis == Axis::X ? x : axis == Axis::Y ? y : z; }
+};
+
+class Geometry {
+ public:
+  class Builder;
+  ~Geometry();
+  Geometry(Geometry&&) noexcept;
+  Geometry& operator=(Geometry&&) noexcept;
+
+  // The canonical reference of the plane that Builder::add_plane returned index `added` for.
+  OrientedPlaneRef plane(std::uint32_t added) const;
+  std::uint32_t plane_count() const;  // distinct planes
+
+  // Exact coprime integer coefficients with the stored normal's sense; walls too.
+  const Plane& exact_plane(PlaneRef plane) const;  // REQUIRES !plane.is_wall()
+  Plane exact_plane_value(PlaneRef plane) const;   // any
+  const Point3& point(PointId id) const;
+  Point3 exact_point(const Vertex& v) const;
+
+  Vertex vertex(PointId id) const;
+  // The meeting point of three planes. REQUIRES their normals to be linearly independent.
+  // The certified error is small compared with the position (a badly conditioned meeting point is
+  // computed exactly and rounded).
+  Vertex meet(PlaneRef p, PlaneRef q, PlaneRef r) const;
+
+  // The sign of n.v + d with the stored normal n.
+  // LAW predicate.1  equals side(exact_plane_value(plane), exact_point(v)).
+  Sign side(const Vertex& v, PlaneRef plane, TierStatistics& statistics) const;
+  // The sign of (coordinate of v along axis) - value.
+  Sign compare_coordinate(const Vertex& v, Axis axis, double value,
+                          TierStatistics& statistics) const;
+  // The sign of (coordinate of v) - (coordinate of w). LAW predicate.2 a total preorder.
+  Sign compare_coordinate(const Vertex& v, const Vertex& w, Axis axis,
+                          TierStatistics& statistics) const;
+  // LAW predicate.3  same_position(v, w) iff exact_point(v) == exact_point(w)
+  bool same_position(const Vertex& v, const Vertex& w, TierStatistics& statistics) const;
+  // Lexicographic by x, y, z, exactly.
+  std::strong_ordering compare_position(const Vertex& v, const Vertex& w,
+                                        TierStatistics& statistics) const;
+  // The sign of det(n_p, n_q, n_r) of the stored normals. Zero: the planes share a direction.
+  Sign orientation(PlaneRef p, PlaneRef q, PlaneRef r, TierStatistics& statistics) const;
+
+  // Certified double coefficients of the stored plane, scaled so that the largest of |a|, |b|, |c|
+  // is in [0.5, 1]; the true (scaled) coefficients differ by at most normal_error / offset_error.
+  struct ApproximatePlane {
+    double a, b, c, d;
+    double normal_error;
+    double offset_error;
+  };
+  ApproximatePlane approximate(PlaneRef plane) const;
+
+ private:
+  struct Data;
+  explicit Geometry(std::unique_ptr<Data> data);
+  std::unique_ptr<Data> data_;
+  friend class Builder;
+};
+
+class Geometry::Builder {
+ public:
+  Builder();
+  ~Builder();
+
+  // Equal points get equal ids. COST: amortised O(1) hash of the exact value.
+  PointId add_point(const Point3& point);
+  const Point3& point(PointId id) const;
+  // The plane through three points, counter-clockwise from outside. Lazy: nothing exact is computed
+  // unless the certified double is too poor or another plane may coincide.
+  // THROWS Error(DegenerateFacet) if they are collinear. Returns 0, 1, 2, ... in order of calls.
+  std::uint32_t add_plane(PointId p, PointId q, PointId r);
+  std::uint32_t add_plane(const Plane& plane);
+  // States that the point lies on the added plane (not checked in release builds): tier 0.
+  void add_incidence(PointId point, std::uint32_t added_plane);
+
+  // Finds coincident planes once and for all. COST: O(n log n) doubles, exact comparisons only
+  // between planes whose certified doubles cannot tell them apart.
+  Geometry build() &&;
+
+ private:
+  std::unique_ptr<Geometry::Data> data_;
+};
+
+}  // namespace exactcsg

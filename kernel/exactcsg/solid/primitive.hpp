@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// The leaves of a solid: half-spaces, convex polytopes and closed polyhedral meshes, with exact
+// coordinates. Immutable; copying a Primitive copies a handle. [Exact]
+//
+// LAW primitive.1  a primitive is a regular closed set (the closure of its interior) with non-empty
+// interior and complement.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "exactcsg/number/point.hpp"
+
+namespace exactcsg {
+
+struct HalfSpace {
+  Plane plane;  // {x : a x + b y + c z + d <= 0}
+};
+
+// The vertices of a convex planar polygon, counter-clockwise seen from outside the solid.
+using Facet = std::vector<std::uint32_t>;
+
+// Vertices and facets of a bounded polyhedron. Facets are strictly planar convex polygons of
+// non-zero area (a vertex in the middle of a straight side is allowed in a mesh).
+struct Polyhedron {
+  std::vector<Point3> vertices;
+  std::vector<Facet> facets;
+};
+
+// Both are handles of immutable polyhedra; equal handles are equal primitives.
+struct ConvexPolytope {
+  std::shared_ptr<const Polyhedron> polyhedron;
+};
+struct PolyhedralMesh {
+  std::shared_ptr<const Polyhedron> polyhedron;
+};
+
+using PrimitiveShape = std::variant<HalfSpace, ConvexPolytope, PolyhedralMesh>;
+
+struct Primitive {
+  PrimitiveShape shape;
+  // Where it was written ("part.csg:12:3"), for messages; not part of its value.
+  std::string origin{};
+};
+
+HalfSpace make_half_space(const Rational& a, const Rational& b, const Rational& c,
+                          const Rational& d);
+
+// The polytope with these facets. Checks: every facet planar, convex, not degenerate; closed; every
+// vertex inside every facet's half-space; not inside out. Coplanar neighbouring facets are merged.
+// THROWS Error(DegenerateFacet | NonPlanarFacet | NonConvexFacet | OpenMesh | InvertedMesh |
+//              NotConvex | FlatPolytope | UnknownVertex)
+// COST: O(vertices * facets) signs for the check.
+ConvexPolytope make_convex_polytope(Polyhedron polyhedron);
+
+// The same without the global checks, for generators whose output is convex by construction (box,
+// sphere, cylinder). Facets must be planar, convex, and pairwise not coplanar.
+ConvexPolytope make_convex_polytope_unchecked(Polyhedron polyhedron);
+
+// The intersection of half-spaces. THROWS Error(UnboundedSolid | FlatPolytope)
+// COST: O(n^4) signs; meant for small n.
+ConvexPolytope make_convex_polytope(std::span<const HalfSpace> half_spaces);
+
+// The axis-parallel box [lower, upper]. REQUIRES lower < upper in each coordinate, else
+// THROWS Error(FlatPolytope).
+ConvexPolytope make_box(const Point3& lower, const Point3& upper);
+
+// A closed, oriented polyhedron that does not intersect itself. Facets may be non-convex or not
+// quite triangulated only if they are planar and convex (see Facet); a reader splits others first.
+// Checks: facets as above; every directed edge matched by its opposite (an edge may carry 2, 4, ...
+// facets); the interior is bounded (positive volume); no two facets cross or overlap.
+// THROWS Error(DegenerateFacet | NonPlanarFacet | NonConvexFacet | OpenMesh | InvertedMesh |
+//              SelfIntersectingMesh | UnknownVertex)
+// COST: O(n log n) expected for the crossing test.
+PolyhedralMesh make_mesh(Polyhedron polyhedron);
+
+// The same without the crossing test, for generators that cannot cross by construction.
+PolyhedralMesh make_mesh_unchecked(Polyhedron polyhedron);
+
+// The image under an invertible map (facets are turned round if it mirrors).
+// THROWS Error(SingularMap)
+Primitive apply(const AffineMap& map, const Primitive& primitive);
+
+}  // namespace exactcsg
