@@ -2,6 +2,7 @@
 # Options, warnings and the flags that exact arithmetic depends on.
 option(EXACTCSG_BUILD_TESTS "build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(EXACTCSG_BUILD_BENCHMARKS "build the benchmarks" OFF)
+option(EXACTCSG_BUILD_FUZZERS "build the libFuzzer targets (clang)" OFF)
 option(EXACTCSG_KERNEL_ONLY "build the kernel alone: no readers, oracles or command" OFF)
 option(EXACTCSG_WARNINGS_AS_ERRORS "treat warnings in our code as errors" ${PROJECT_IS_TOP_LEVEL})
 set(EXACTCSG_SANITIZE "" CACHE STRING "address, undefined or thread: build with that sanitizer")
@@ -23,4 +24,8 @@ if(EXACTCSG_SANITIZE)
   add_compile_options(-fsanitize=${EXACTCSG_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${EXACTCSG_SANITIZE})
+endif()
+if(EXACTCSG_BUILD_FUZZERS)
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=address,undefined)
 endif()
