@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: CC0-1.0
+// A unit cube and its turn by the 3-4-5 angle, united: volume 7/6.
+turn = [[0.6, -0.8, 0, 0], [0.8, 0.6, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]];
+cube(1, center = true);
+multmatrix(turn) cube(1, center = true);
