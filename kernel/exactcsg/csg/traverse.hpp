@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// The evaluation of a CSG tree: solve its primitives, combine the results upwards. [Exact]
+//
+//   traverse(tree, solve, combine, special, absorbs, scratch)
+//   traverse(tree, query, solve, combine, special, absorbs, scratch)
+//
+// solve(primitive) or solve(primitive, query) -> R; combine(R, operator, R) -> R. The last three
+// arguments may be left out, from the right.
+//
+// LAW traverse.1  a primitive yields solve; Full and Empty yield the special results; a composed
+//                 node folds the results of its children from the left with combine; a single child
+//                 passes its result through.
+// LAW traverse.2  if absorbs(partial, operator) says that no right-hand argument changes partial,
+//                 the remaining children are not visited; the result is the same as without.
+// LAW traverse.3  solve is called from left to right, once for every occurrence visited.
+// LAW traverse.4  with a scratch that has seen a tree as deep, traverse itself allocates nothing.
+// R needs only be movable. No recursion.
+// THROWS Error(NoSpecialResult) if the tree has Full or Empty and no result for it was given, and
+// what the callbacks throw.
+// COST: O(nodes visited) calls; memory O(depth).
+//
+// Source: Davy and Dew, section 3.2, with the SpecialSolve argument of section 7.2 in place of six
+// overloads, and the early out that section 7.3 misses.
+
+#include <concepts>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "exactcsg/csg/tree_concept.hpp"
+#include "exactcsg/support/error.hpp"
+
+namespace exactcsg::csg {
+
+// What traverse yields at Full and Empty: a value of R, or a function that makes one.
+struct NoSpecial {};
+template <class F>
+struct FullResult {
+  F full;
+};
+template <class F, class E>
+struct FullEmptyResult {
+  F full;
+  E empty;
+};
+template <class F>
+FullResult(F) -> FullResult<F>;
+template <class F, class E>
+FullEmptyResult(F, E) -> FullEmptyResult<F, E>;
+
+struct NeverAbsorbs {
+  template <class R, class O>
+  constexpr bool operator()(const R&, O) const noexcept {
+    return false;
+  }
+};
+
+// The stack of traverse, kept by the caller between calls. REQUIRES not used by two calls at once.
+template <ReadableTree T, class R>
+class TraverseScratch {
+ public:
+  struct Frame {
+    typename T::Cursor child;
+    typename T::Cursor end;
+    typename T::Operator operation;
+    std::optional<R> partial;
+  };
+  std::vector<Frame>& frames() noexcept { return frames_; }
+
+ private:
+  std::vector<Frame> frames_;
+};
+
+namespace detail {
+
+template <class R, class S>
+R special_value(const S& special) {
+  if constexpr (std::convertible_to<const S&, R>) {
+    return special;
+  } else {
+    return special();
+  }
+}
+
+template <class R>
+[[noreturn]] R no_special(const char* what) {
+  throw Error(ErrorId::NoSpecialResult, {what, ""});
+}
+
+template <class R>
+R full_result(const NoSpecial&) {
+  return no_special<R>("Full");
+}
+template <class R, class F>
+R full_result(const FullResult<F>& special) {
+  return special_value<R>(special.full);
+}
+template <class R, class F, class E>
+R full_result(const FullEmptyResult<F, E>& special) {
+  return special_value<R>(special.full);
+}
+template <class R, class S>
+R empty_result(const S&) {
+  return no_special<R>("Empty");
+}
+template <class R, class F, class E>
+R empty_result(const FullEmptyResult<F, E>& special) {
+  return special_value<R>(special.empty);
+}
+
+template <class R, class Cursor, class Solve, class Special>
+R leaf_result(Cursor node, Solve& solve, const Special& special) {
+  switch (node.kind()) {
+    case NodeKind::Primitive:
+      return solve(node.primitive());
+    case NodeKind::Full:
+      return full_result<R>(special);
+    default:
+      return empty_result<R>(special);
+  }
+}
+
+}  // namespace detail
+
+template <class Solve, class P>
+using SolveResult = std::remove_cvref_t<std::invoke_result_t<Solve&, const P&>>;
+
+template <class Combine, class R, class O>
+concept CombinesResults = std::movable<R> && std::is_invocable_r_v<R, Combine&, R&&, O, R&&>;
+
+template <ReadableTree T, std::invocable<const typename T::Primitive&> Solve, class Combine,
+          class Special, class Absorbs, class R = SolveResult<Solve, typename T::Primitive>>
+requires CombinesResults<Combine, R, typename T::Operator> &&
+    std::predicate<Absorbs&, const R&, typename T::Operator>
+        R traverse(const T& tree, Solve&& solve, Combine&& combine, const Special& special,
+                   Absorbs&& absorbs, TraverseScratch<T, R>& scratch) {
+  auto& frames = scratch.frames();
+  frames.clear();
+  typename T::Cursor node = tree.root();
+  for (;;) {
+    while (node.kind() == NodeKind::Compose) {
+      frames.push_back({node.first_child(), node.children_end(), node.operation(), std::nullopt});
+      node = node.first_child();
+    }
+    R value = detail::leaf_result<R>(node, solve, special);
+    for (;;) {
+      if (frames.empty()) return value;
+      auto& top = frames.back();
+      if (top.partial) value = combine(std::move(*top.partial), top.operation, std::move(value));
+      top.child = top.child.next_sibling();
+      if (!(top.child == top.end) && !absorbs(std::as_const(value), top.operation)) {
+        top.partial = std::move(value);
+        node = top.child;
+        break;
+      }
+      frames.pop_back();
+    }
+  }
+}
+
+template <ReadableTree T, std::invocable<const typename T::Primitive&> Solve, class Combine,
+          class Special = NoSpecial, class Absorbs = NeverAbsorbs,
+          class R = SolveResult<Solve, typename T::Primitive>>
+requires CombinesResults<Combine, R, typename T::Operator> &&
+    std::predicate<Absorbs&, const R&, typename T::Operator>
+        R traverse(const T& tree, Solve&& solve, Combine&& combine, const Special& special = {},
+                   Absorbs&& absorbs = {}) {
+  TraverseScratch<T, R> scratch;
+  return traverse(tree, solve, combine, special, absorbs, scratch);
+}
+
+// With a query, the thing that is classified against the tree.
+template <ReadableTree T, class Query,
+          std::invocable<const typename T::Primitive&, const Query&> Solve, class Combine,
+          class... Rest>
+auto traverse(const T& tree, const Query& query, Solve&& solve, Combine&& combine, Rest&&... rest) {
+  return traverse(
+      tree, [&](const typename T::Primitive& primitive) { return solve(primitive, query); },
+      combine, std::forward<Rest>(rest)...);
+}
+
+}  // namespace exactcsg::csg
