@@ -8,8 +8,9 @@
 // threads; exact plane coefficients are computed lazily, at most a few times, and published
 // atomically.
 //
-// A Vertex is a small value: an input point, or the meeting point of three planes. It always carries
-// a certified double position: the true coordinates differ from (x, y, z) by at most `error` each.
+// A Vertex is a small value: an input point, or the meeting point of three planes. It always
+// carries a certified double position: the true coordinates differ from (x, y, z) by at most
+// `error` each.
 //
 // Every predicate answers exactly, through the four tiers of docs/exactness.md (symbolic, double
 // filter, fixed-width integers, unbounded integers), and counts the tier in the statistics it is
@@ -17,6 +18,8 @@
 //
 // Exact. Source: DESIGN section 3 (docs/exactness.md); the tiers after google/s2geometry.
 
+#include <bit>
+#include <cmath>
 #include <compare>
 #include <cstdint>
 #include <memory>
@@ -40,12 +43,19 @@ class PlaneRef {
     return PlaneRef(static_cast<std::uint64_t>(index) << 2U);
   }
   // REQUIRES position == round_wall_position(position)
-  static PlaneRef of_wall(Axis axis, double position);
+  static PlaneRef of_wall(Axis axis, double position) {
+    // Adding zero turns -0 into 0: one plane, one reference.
+    const auto upper = std::bit_cast<std::uint64_t>(position + 0.0) & ~std::uint64_t{3};
+    return PlaneRef(upper | (static_cast<std::uint64_t>(axis) + 1U));
+  }
 
   constexpr bool is_wall() const { return (bits_ & 3U) != 0; }
   constexpr std::uint32_t table_index() const { return static_cast<std::uint32_t>(bits_ >> 2U); }
-  Axis wall_axis() const;
-  double wall_position() const;
+  // REQUIRES is_wall()
+  constexpr Axis wall_axis() const { return static_cast<Axis>((bits_ & 3U) - 1U); }
+  constexpr double wall_position() const {
+    return std::bit_cast<double>(bits_ & ~std::uint64_t{3});
+  }
   constexpr std::uint64_t bits() const { return bits_; }
   friend constexpr auto operator<=>(PlaneRef, PlaneRef) = default;
 
@@ -58,7 +68,9 @@ class PlaneRef {
 
 // The nearest double below or equal in magnitude whose last two mantissa bits are zero: wall
 // positions are such doubles, so that a PlaneRef can hold them.
-double round_wall_position(double position);
+inline double round_wall_position(double position) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(position) & ~std::uint64_t{3});
+}
 
 // One side's sense of a stored plane: `sense` +1 if the oriented plane has the stored normal.
 struct OrientedPlaneRef {
@@ -71,7 +83,7 @@ struct Vertex {
   double x = 0;
   double y = 0;
   double z = 0;
-  double error = 0;  // certified: |true - stored| <= error for each coordinate
+  double error = 0;    // certified: |true - stored| <= error for each coordinate
   PlaneRef planes[3];  // of a meeting point: three planes in ascending order of bits()
   PointId point{};
   bool is_point = false;
@@ -104,7 +116,12 @@ class Geometry {
 
   // The sign of n.v + d with the stored normal n.
   // LAW predicate.1  equals side(exact_plane_value(plane), exact_point(v)).
-  Sign side(const Vertex& v, PlaneRef plane, TierStatistics& statistics) const;
+  Sign side(const Vertex& v, PlaneRef plane, TierStatistics& statistics) const {
+    const double value = filtered_side(v, plane);
+    if (value == 0) return side_beyond_filter(v, plane, statistics);
+    statistics.record(Tier::Double, false);
+    return value > 0 ? Sign::Positive : Sign::Negative;
+  }
   // The sign of (coordinate of v along axis) - value.
   Sign compare_coordinate(const Vertex& v, Axis axis, double value,
                           TierStatistics& statistics) const;
@@ -126,12 +143,21 @@ class Geometry {
     double normal_error;
     double offset_error;
   };
-  ApproximatePlane approximate(PlaneRef plane) const;
+  ApproximatePlane approximate(PlaneRef plane) const {
+    return plane.is_wall() ? approximate_wall(plane) : approximate_[plane.table_index()];
+  }
+
+  struct Data;  // private to the implementation
 
  private:
-  struct Data;
   explicit Geometry(std::unique_ptr<Data> data);
+
+  static ApproximatePlane approximate_wall(PlaneRef wall);
+  double filtered_side(const Vertex& v, PlaneRef plane) const;
+  Sign side_beyond_filter(const Vertex& v, PlaneRef plane, TierStatistics& statistics) const;
+
   std::unique_ptr<Data> data_;
+  const ApproximatePlane* approximate_ = nullptr;  // by table index; owned by data_
   friend class Builder;
 };
 
@@ -147,6 +173,7 @@ class Geometry::Builder {
   // unless the certified double is too poor or another plane may coincide.
   // THROWS Error(DegenerateFacet) if they are collinear. Returns 0, 1, 2, ... in order of calls.
   std::uint32_t add_plane(PointId p, PointId q, PointId r);
+  // REQUIRES coprime coefficients (LAW plane.1)
   std::uint32_t add_plane(const Plane& plane);
   // States that the point lies on the added plane (not checked in release builds): tier 0.
   void add_incidence(PointId point, std::uint32_t added_plane);
@@ -156,7 +183,45 @@ class Geometry::Builder {
   Geometry build() &&;
 
  private:
-  std::unique_ptr<Geometry::Data> data_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
+
+inline Geometry::ApproximatePlane Geometry::approximate_wall(PlaneRef wall) {
+  const Axis axis = wall.wall_axis();
+  return {axis == Axis::X ? 1.0 : 0.0,
+          axis == Axis::Y ? 1.0 : 0.0,
+          axis == Axis::Z ? 1.0 : 0.0,
+          -wall.wall_position(),
+          0,
+          0};
+}
+
+// A number of the sign of n.v + d, or zero if the double filter cannot tell.
+//
+// A wall: the rounded difference x - w has the sign of the exact one, and its size by a factor of
+// 1 +- u (u = 2^-53), so that it decides if it exceeds error * (1 + 2u).
+//
+// A plane, |a|, |b|, |c| <= 1, L = |x| + |y| + |z|: the computed a x + b y + c z + d is off by
+//   normal_error * L + 3 error * (1 + normal_error) + offset_error  (errors of the data)
+//   + 4.01 u (L + |d|)                                              (four roundings of each term)
+// and an underflow, which the smallest normal number outweighs. With 6 u and 4 error in place of
+// 4.01 u and 3.01 error the roundings of the bound itself are paid for, since the plane's errors
+// are inflated by 2^-45 when they are stored and normal_error <= 2^-30. A contraction into fused
+// multiply-adds only leaves roundings out. If a sum overflows, so does L or the bound is right for
+// the infinite value; comparing with NaN decides nothing.
+inline double Geometry::filtered_side(const Vertex& v, PlaneRef plane) const {
+  if (plane.is_wall()) {
+    const double difference = v.coordinate(plane.wall_axis()) - plane.wall_position();
+    return std::fabs(difference) > v.error * (1 + 0x1p-50) ? difference : 0;
+  }
+  constexpr double rounding = 6 * 0x1p-53;
+  const ApproximatePlane& p = approximate_[plane.table_index()];
+  const double value = p.a * v.x + p.b * v.y + p.c * v.z + p.d;
+  const double length = std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
+  const double bound = length * (p.normal_error + rounding) +
+                       (p.offset_error + std::fabs(p.d) * rounding) + 4 * v.error + 0x1p-1022;
+  return std::fabs(value) > bound ? value : 0;
+}
 
 }  // namespace exactcsg

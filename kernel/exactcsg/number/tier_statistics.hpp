@@ -9,8 +9,8 @@
 
 namespace exactcsg {
 
-// Symbolic: known incidence. Double: certified floating-point filter. Fixed: integers of fixed width
-// on the stack. Unbounded: GMP integers.
+// Symbolic: known incidence. Double: certified floating-point filter. Fixed: integers of fixed
+// width on the stack. Unbounded: GMP integers.
 enum class Tier : unsigned char { Symbolic, Double, Fixed, Unbounded };
 inline constexpr std::size_t tier_count = 4;
 

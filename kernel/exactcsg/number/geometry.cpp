@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/number/geometry.hpp"
+
+#include <algorithm>
+
+#include "exactcsg/number/geometry_data.hpp"
+#include "exactcsg/number/meet.hpp"
+#include "exactcsg/support/error.hpp"
+
+namespace exactcsg {
+
+Geometry::Geometry(std::unique_ptr<Data> data)
+    : data_(std::move(data)), approximate_(data_->planes.approximate()) {}
+Geometry::~Geometry() = default;
+Geometry::Geometry(Geometry&&) noexcept = default;
+Geometry& Geometry::operator=(Geometry&&) noexcept = default;
+
+OrientedPlaneRef Geometry::plane(std::uint32_t added) const { return data_->of_added[added]; }
+
+std::uint32_t Geometry::plane_count() const { return data_->planes.size(); }
+
+const Plane& Geometry::exact_plane(PlaneRef plane) const {
+  return data_->exact(plane.table_index());
+}
+
+Plane Geometry::exact_plane_value(PlaneRef plane) const {
+  if (!plane.is_wall()) return exact_plane(plane);
+  const Coefficients<Integer> c = load<Integer>(data_->operand(plane));
+  return {c.a, c.b, c.c, c.d};
+}
+
+const Point3& Geometry::point(PointId id) const { return data_->points.exact(id); }
+
+Point3 Geometry::exact_point(const Vertex& v) const {
+  if (v.is_point) return point(v.point);
+  const auto [p, q, r] = data_->operands(v);
+  return point_of(meeting_point(load<Integer>(p), load<Integer>(q), load<Integer>(r)));
+}
+
+Vertex Geometry::vertex(PointId id) const {
+  const ApproximatePoint& p = data_->points.approximate(id);
+  Vertex v;
+  v.x = p.x;
+  v.y = p.y;
+  v.z = p.z;
+  v.error = p.error;
+  v.point = id;
+  v.is_point = true;
+  return v;
+}
+
+Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r) const {
+  if (q < p) std::swap(p, q);
+  if (r < q) std::swap(q, r);
+  if (q < p) std::swap(p, q);
+  Vertex v;
+  v.planes[0] = p;
+  v.planes[1] = q;
+  v.planes[2] = r;
+  std::optional<ApproximatePoint> position =
+      approximate_meeting_point({approximate(p), approximate(q), approximate(r)});
+  if (!position) {
+    const auto [s, t, u] = data_->operands(v);
+    const Homogeneous<Integer> exact =
+        meeting_point(load<Integer>(s), load<Integer>(t), load<Integer>(u));
+    if (exact.w == 0) {
+      throw Error(ErrorId::InternalError,
+                  {"three planes that share a direction", "planes that meet in one point"});
+    }
+    position = exactcsg::approximate(point_of(exact));
+  }
+  v.x = position->x;
+  v.y = position->y;
+  v.z = position->z;
+  v.error = position->error;
+  return v;
+}
+
+}  // namespace exactcsg

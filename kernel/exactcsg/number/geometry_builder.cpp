@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "exactcsg/number/coincidence.hpp"
+#include "exactcsg/number/geometry_data.hpp"
+
+namespace exactcsg {
+
+namespace {
+
+struct Incidence {
+  PointId point;
+  std::uint32_t plane;  // as added, later the index of the table
+};
+
+}  // namespace
+
+struct Geometry::Builder::State {
+  PointTable points;
+  AddedPlanes planes;
+  std::vector<Incidence> incidences;
+};
+
+namespace {
+
+// Sorts incidences into the rows of a table by point, each row ascending and without repetition.
+void fill_incidences(const std::vector<Incidence>& incidences, Geometry::Data& data) {
+  std::vector<std::uint32_t>& begin = data.incident_begin;
+  std::vector<std::uint32_t>& planes = data.incident_planes;
+  begin.assign(data.points.size() + 1, 0);
+  for (const Incidence& i : incidences) ++begin[static_cast<std::size_t>(i.point) + 1];
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  planes.resize(incidences.size());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for (const Incidence& i : incidences) {
+    planes[next[static_cast<std::size_t>(i.point)]++] = data.of_added[i.plane].plane.table_index();
+  }
+  // Rows only become shorter: they are moved to the front in place.
+  std::uint32_t written = 0;
+  std::uint32_t row_begin = 0;
+  for (std::size_t point = 0; point + 1 < begin.size(); ++point) {
+    const std::uint32_t row_end = begin[point + 1];
+    const auto first = planes.begin() + row_begin;
+    std::sort(first, planes.begin() + row_end);
+    const auto last = std::unique(first, planes.begin() + row_end);
+    const auto out = std::copy(first, last, planes.begin() + written);
+    begin[point] = written;
+    written = static_cast<std::uint32_t>(out - planes.begin());
+    row_begin = row_end;
+  }
+  begin.back() = written;
+  planes.resize(written);
+}
+
+}  // namespace
+
+Geometry::Builder::Builder() : state_(std::make_unique<State>()) {}
+Geometry::Builder::~Builder() = default;
+
+PointId Geometry::Builder::add_point(const Point3& point) { return state_->points.intern(point); }
+
+const Point3& Geometry::Builder::point(PointId id) const { return state_->points.exact(id); }
+
+std::uint32_t Geometry::Builder::add_plane(PointId p, PointId q, PointId r) {
+  const std::uint32_t index = state_->planes.add(state_->points, {p, q, r});
+  for (const PointId id : {p, q, r}) add_incidence(id, index);
+  return index;
+}
+
+std::uint32_t Geometry::Builder::add_plane(const Plane& plane) { return state_->planes.add(plane); }
+
+void Geometry::Builder::add_incidence(PointId point, std::uint32_t added_plane) {
+  state_->incidences.push_back({point, added_plane});
+}
+
+Geometry Geometry::Builder::build() && {
+  State& state = *state_;
+  const std::vector<PlaneClass> classes = coincidence_classes(state.planes, state.points);
+  auto data = std::make_unique<Data>();
+  data->of_added.resize(classes.size());
+  std::vector<std::uint32_t> firsts;
+  for (std::uint32_t i = 0; i < classes.size(); ++i) {
+    if (classes[i].first == i) {
+      data->of_added[i].plane = PlaneRef::of_table(static_cast<std::uint32_t>(firsts.size()));
+      firsts.push_back(i);
+    } else {
+      data->of_added[i] = {data->of_added[classes[i].first].plane, classes[i].sense};
+    }
+  }
+  data->planes = PlaneTable(state.planes, firsts);
+  data->points = std::move(state.points);
+  data->homogeneous_points = LazyTable<Homogeneous<Integer>>(data->points.size());
+  fill_incidences(state.incidences, *data);
+  state_.reset();
+  return Geometry(std::move(data));
+}
+
+}  // namespace exactcsg

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What a Geometry owns. Private to number/.
+
+#include <span>
+#include <vector>
+
+#include "exactcsg/number/geometry.hpp"
+#include "exactcsg/number/homogeneous.hpp"
+#include "exactcsg/number/lazy_table.hpp"
+#include "exactcsg/number/plane_table.hpp"
+#include "exactcsg/number/point_table.hpp"
+
+namespace exactcsg {
+
+struct Geometry::Data {
+  PointTable points;
+  PlaneTable planes;
+  std::vector<OrientedPlaneRef> of_added;
+  // The planes known to contain point i, ascending: incident_planes[incident_begin[i] ...
+  // incident_begin[i + 1]).
+  std::vector<std::uint32_t> incident_begin;
+  std::vector<std::uint32_t> incident_planes;
+  LazyTable<Homogeneous<Integer>> homogeneous_points;
+
+  std::span<const std::uint32_t> planes_through(PointId id) const {
+    const auto i = static_cast<std::size_t>(id);
+    return std::span(incident_planes)
+        .subspan(incident_begin[i], incident_begin[i + 1] - incident_begin[i]);
+  }
+  const Plane& exact(std::uint32_t plane) const { return planes.exact(points, plane); }
+  const Homogeneous<Integer>& homogeneous(PointId id) const {
+    return homogeneous_points.get(static_cast<std::size_t>(id),
+                                  [&] { return homogeneous_of(points.exact(id)); });
+  }
+  PlaneOperand operand(PlaneRef plane) const {
+    return plane.is_wall() ? operand_of_wall(plane.wall_axis(), plane.wall_position())
+                           : operand_of(exact(plane.table_index()));
+  }
+  std::array<PlaneOperand, 3> operands(const Vertex& v) const {
+    return {operand(v.planes[0]), operand(v.planes[1]), operand(v.planes[2])};
+  }
+};
+
+}  // namespace exactcsg

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/number/point_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace exactcsg {
+
+namespace {
+
+// After the finaliser of MurmurHash3.
+std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
+  hash = (hash ^ value) * 0xff51afd7ed558ccdULL;
+  return hash ^ (hash >> 32U);
+}
+
+std::uint64_t mixed(std::uint64_t hash, const Integer& value) {
+  const std::size_t size = mpz_size(value.get_mpz_t());
+  hash = mixed(hash, size * 2 + (sgn(value) < 0 ? 1U : 0U));
+  const mp_limb_t* limbs = mpz_limbs_read(value.get_mpz_t());
+  for (std::size_t i = 0; i < size; ++i) hash = mixed(hash, limbs[i]);
+  return hash;
+}
+
+std::uint64_t hash_of(const Point3& point) {
+  std::uint64_t hash = 0x9e3779b97f4a7c15ULL;
+  for (const Rational* coordinate : {&point.x, &point.y, &point.z}) {
+    hash = mixed(mixed(hash, coordinate->get_num()), coordinate->get_den());
+  }
+  return hash;
+}
+
+// Is the rational a number m 2^-k of at most 53 bits, well inside the range of doubles?
+bool is_plain_double(const Rational& value) {
+  const mpz_srcptr denominator = value.get_den_mpz_t();
+  const mpz_srcptr numerator = value.get_num_mpz_t();
+  const std::size_t shift = mpz_sizeinbase(denominator, 2) - 1;
+  return mpz_scan1(denominator, 0) == shift && shift < 900 && mpz_sizeinbase(numerator, 2) <= 53;
+}
+
+}  // namespace
+
+ApproximatePoint approximate(const Point3& point) {
+  ApproximatePoint result{nearest_double(point.x), nearest_double(point.y), nearest_double(point.z),
+                          0};
+  if (!std::isfinite(result.x) || !std::isfinite(result.y) || !std::isfinite(result.z)) {
+    return {0, 0, 0, std::numeric_limits<double>::infinity()};
+  }
+  const auto widen = [&result](const Rational& exact, double rounded) {
+    if (is_plain_double(exact)) return;
+    // Half a unit in the last place is at most 2^-53 of the value, or 2^-1075 of a subnormal one.
+    const double half_unit =
+        std::max(std::fabs(rounded) * 0x1p-53, std::numeric_limits<double>::denorm_min());
+    if (half_unit > result.error && rational_of(rounded) != exact) result.error = half_unit;
+  };
+  widen(point.x, result.x);
+  widen(point.y, result.y);
+  widen(point.z, result.z);
+  return result;
+}
+
+PointId PointTable::intern(const Point3& point) {
+  if (points_.size() * 2 >= slots_.size()) enlarge_slots();
+  const std::uint64_t hash = hash_of(point);
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash & mask;
+  for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
+    const std::uint32_t id = slots_[slot] - 1;
+    if (hashes_[id] == hash && points_[id] == point) return PointId{id};
+  }
+  const auto id = static_cast<std::uint32_t>(points_.size());
+  slots_[slot] = id + 1;
+  hashes_.push_back(hash);
+  approximate_.push_back(exactcsg::approximate(point));
+  points_.push_back(point);
+  return PointId{id};
+}
+
+void PointTable::enlarge_slots() {
+  const std::size_t size = std::max<std::size_t>(slots_.size() * 2, 64);
+  slots_.assign(size, 0);
+  for (std::uint32_t id = 0; id < hashes_.size(); ++id) {
+    std::size_t slot = hashes_[id] & (size - 1);
+    while (slots_[slot] != 0) slot = (slot + 1) & (size - 1);
+    slots_[slot] = id + 1;
+  }
+}
+
+}  // namespace exactcsg

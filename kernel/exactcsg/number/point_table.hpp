@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Exact points, each once, with their certified doubles. Private to number/. [Exact]
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "exactcsg/number/geometry.hpp"
+#include "exactcsg/number/point.hpp"
+
+namespace exactcsg {
+
+// |true - stored| <= error for each coordinate; error 0 says that the doubles are the coordinates.
+// An error of infinity: the coordinates are outside the doubles' range, the stored ones mean
+// nothing.
+struct ApproximatePoint {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+  double error = 0;
+};
+
+ApproximatePoint approximate(const Point3& point);
+
+class PointTable {
+ public:
+  // The id of the point of this value, a new one if there is none. COST: amortised O(1)
+  PointId intern(const Point3& point);
+
+  std::size_t size() const { return points_.size(); }
+  const Point3& exact(PointId id) const { return points_[static_cast<std::size_t>(id)]; }
+  const ApproximatePoint& approximate(PointId id) const {
+    return approximate_[static_cast<std::size_t>(id)];
+  }
+
+ private:
+  void enlarge_slots();
+
+  std::deque<Point3> points_;  // a deque: references stay valid while points are added
+  std::vector<ApproximatePoint> approximate_;
+  std::vector<std::uint64_t> hashes_;
+  std::vector<std::uint32_t> slots_;  // open addressing: 0 free, else id + 1
+};
+
+}  // namespace exactcsg

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "exactcsg/number/geometry_data.hpp"
+#include "exactcsg/number/meet.hpp"
+
+namespace exactcsg {
+
+namespace {
+
+using Data = Geometry::Data;
+
+constexpr Axis axes[] = {Axis::X, Axis::Y, Axis::Z};
+
+Sign sign_of_difference(double x, double y) {
+  return x > y ? Sign::Positive : x < y ? Sign::Negative : Sign::Zero;
+}
+
+bool equal(const Decision& decision) { return decision.sign == Sign::Zero; }
+
+Sign recorded(const Decision& decision, TierStatistics& statistics) {
+  statistics.record(decision.tier, equal(decision));
+  return decision.sign;
+}
+
+// --- What is known without arithmetic ------------------------------------------------------------
+
+// A wall, or a plane of the table that is exactly perpendicular to an axis.
+std::optional<Axis> perpendicular_axis(const Data& data, PlaneRef plane) {
+  if (plane.is_wall()) return plane.wall_axis();
+  return exact_axis(data.planes.approximate()[plane.table_index()]);
+}
+
+// The position of such a plane, if it is a double.
+std::optional<double> exact_position(const Data& data, PlaneRef plane) {
+  if (plane.is_wall()) return plane.wall_position();
+  const ApproximatePlane& p = data.planes.approximate()[plane.table_index()];
+  if (!exact_axis(p) || p.offset_error != 0) return std::nullopt;
+  return -p.d * (p.a + p.b + p.c) + 0.0;  // the normal is +-1 along its axis
+}
+
+bool is_incident(const Data& data, const Vertex& v, PlaneRef plane) {
+  if (!v.is_point) return std::ranges::find(v.planes, plane) != std::end(v.planes);
+  if (plane.is_wall()) return false;
+  const auto known = data.planes_through(v.point);
+  return std::ranges::find(known, plane.table_index()) != known.end();
+}
+
+bool is_same_vertex(const Vertex& v, const Vertex& w) {
+  if (v.is_point != w.is_point) return false;
+  return v.is_point ? v.point == w.point : std::ranges::equal(v.planes, w.planes);
+}
+
+// A plane perpendicular to the axis that is one of the meeting point's own.
+std::optional<PlaneRef> own_perpendicular(const Data& data, const Vertex& v, Axis axis) {
+  if (v.is_point) return std::nullopt;
+  for (const PlaneRef plane : v.planes) {
+    if (perpendicular_axis(data, plane) == axis) return plane;
+  }
+  return std::nullopt;
+}
+
+bool share_perpendicular(const Data& data, const Vertex& v, const Vertex& w, Axis axis) {
+  if (const auto plane = own_perpendicular(data, v, axis)) return is_incident(data, w, *plane);
+  if (const auto plane = own_perpendicular(data, w, axis)) return is_incident(data, v, *plane);
+  return false;
+}
+
+// The vertex's coordinate, if it is known to be this double.
+std::optional<double> exact_coordinate(const Data& data, const Vertex& v, Axis axis) {
+  if (v.error == 0) return v.coordinate(axis);
+  if (const auto plane = own_perpendicular(data, v, axis)) return exact_position(data, *plane);
+  return std::nullopt;
+}
+
+// --- Integers
+// --------------------------------------------------------------------------------------
+
+// A point, or three planes, as the operand of formulas that do not care which.
+class VertexOperand {
+ public:
+  VertexOperand(const Data& data, const Vertex& v) {
+    if (v.is_point) {
+      point_ = &data.homogeneous(v.point);
+      bits_ = bits_of(*point_);
+    } else {
+      planes_ = data.operands(v);
+      bits_ = bits_of_meeting_point(planes_);
+    }
+  }
+  const HomogeneousBits& bits() const { return bits_; }
+
+  template <class T>
+  Homogeneous<T> load() const {
+    if (point_ != nullptr) return exactcsg::load<T>(*point_);
+    const auto& [p, q, r] = planes_;
+    return meeting_point(exactcsg::load<T>(p), exactcsg::load<T>(q), exactcsg::load<T>(r));
+  }
+
+ private:
+  const Homogeneous<Integer>* point_ = nullptr;
+  std::array<PlaneOperand, 3> planes_{};
+  HomogeneousBits bits_;
+};
+
+Decision exact_side(const VertexOperand& vertex, const PlaneOperand& plane) {
+  return decide(bits_of_value(plane, vertex.bits()), [&]<class T>() {
+    const Homogeneous<T> p = vertex.load<T>();
+    return sign_of(T(value_at(load<T>(plane), p))) * sign_of(p.w);
+  });
+}
+
+Decision exact_compare(const VertexOperand& v, const VertexOperand& w, Axis axis) {
+  // v / v.w - w / w.w has the sign of (v w.w - w v.w) v.w w.w.
+  const int bits = std::max(v.bits().coordinate + w.bits().denominator,
+                            w.bits().coordinate + v.bits().denominator) +
+                   1;
+  return decide(bits, [&]<class T>() {
+    const Homogeneous<T> p = v.load<T>();
+    const Homogeneous<T> q = w.load<T>();
+    const T difference = coordinate(p, axis) * q.w - coordinate(q, axis) * p.w;
+    return sign_of(difference) * sign_of(p.w) * sign_of(q.w);
+  });
+}
+
+// --- The tiers in turn
+// -----------------------------------------------------------------------------
+
+Decision side_without_filter(const Data& data, const Vertex& v, PlaneRef plane) {
+  if (is_incident(data, v, plane)) return {Sign::Zero, Tier::Symbolic};
+  if (const auto axis = perpendicular_axis(data, plane)) {
+    const auto position = exact_position(data, plane);
+    const auto coordinate = exact_coordinate(data, v, *axis);
+    if (position && coordinate) {
+      const Sign above = sign_of_difference(*coordinate, *position);
+      if (plane.is_wall()) return {above, Tier::Double};
+      const ApproximatePlane& p = data.planes.approximate()[plane.table_index()];
+      return {p.a + p.b + p.c > 0 ? above : -above, Tier::Double};
+    }
+  }
+  return exact_side(VertexOperand(data, v), data.operand(plane));
+}
+
+// Zero: the doubles cannot tell. The rounding of the difference as in Geometry::filtered_side, that
+// of the sum of the errors besides.
+Sign filtered_compare(const Vertex& v, const Vertex& w, Axis axis) {
+  const double difference = v.coordinate(axis) - w.coordinate(axis);
+  const double bound = (v.error + w.error) * (1 + 0x1p-50);
+  return difference > bound ? Sign::Positive : difference < -bound ? Sign::Negative : Sign::Zero;
+}
+
+Decision compare(const Data& data, const Vertex& v, const Vertex& w, Axis axis) {
+  if (const Sign sign = filtered_compare(v, w, axis); sign != Sign::Zero) {
+    return {sign, Tier::Double};
+  }
+  if (is_same_vertex(v, w) || share_perpendicular(data, v, w, axis)) {
+    return {Sign::Zero, Tier::Symbolic};
+  }
+  const auto x = exact_coordinate(data, v, axis);
+  const auto y = x ? exact_coordinate(data, w, axis) : std::nullopt;
+  if (y) return {sign_of_difference(*x, *y), Tier::Double};
+  return exact_compare(VertexOperand(data, v), VertexOperand(data, w), axis);
+}
+
+// Of w's three planes: does v lie on each? Sign::Positive stands for "no".
+Decision lies_on_own_planes(const Data& data, const Vertex& v, const Vertex& w) {
+  Decision result{Sign::Zero, Tier::Symbolic};
+  for (const PlaneRef plane : w.planes) {
+    const Decision decision = side_without_filter(data, v, plane);
+    result.tier = std::max(result.tier, decision.tier);
+    if (!equal(decision)) return {Sign::Positive, result.tier};
+  }
+  return result;
+}
+
+// Sign::Positive stands for "different".
+Decision same_position(const Data& data, const Vertex& v, const Vertex& w) {
+  if (is_same_vertex(v, w)) return {Sign::Zero, Tier::Symbolic};
+  if (v.is_point && w.is_point) return {Sign::Positive, Tier::Symbolic};
+  for (const Axis axis : axes) {
+    if (filtered_compare(v, w, axis) != Sign::Zero) return {Sign::Positive, Tier::Double};
+  }
+  if (v.error == 0 && w.error == 0) return {Sign::Zero, Tier::Double};
+  return w.is_point ? lies_on_own_planes(data, w, v) : lies_on_own_planes(data, v, w);
+}
+
+std::strong_ordering ordering(Sign sign) { return static_cast<int>(sign) <=> 0; }
+
+}  // namespace
+
+Sign Geometry::side_beyond_filter(const Vertex& v, PlaneRef plane,
+                                  TierStatistics& statistics) const {
+  return recorded(side_without_filter(*data_, v, plane), statistics);
+}
+
+Sign Geometry::compare_coordinate(const Vertex& v, Axis axis, double value,
+                                  TierStatistics& statistics) const {
+  const double difference = v.coordinate(axis) - value;
+  if (std::fabs(difference) > v.error * (1 + 0x1p-50)) {
+    statistics.record(Tier::Double, false);
+    return sign_of_difference(difference, 0);
+  }
+  if (const auto plane = own_perpendicular(*data_, v, axis)) {
+    if (const auto position = exact_position(*data_, *plane)) {
+      return recorded({sign_of_difference(*position, value), Tier::Symbolic}, statistics);
+    }
+  }
+  if (v.error == 0) {
+    return recorded({sign_of_difference(v.coordinate(axis), value), Tier::Double}, statistics);
+  }
+  return recorded(exact_side(VertexOperand(*data_, v), operand_of_wall(axis, value)), statistics);
+}
+
+Sign Geometry::compare_coordinate(const Vertex& v, const Vertex& w, Axis axis,
+                                  TierStatistics& statistics) const {
+  return recorded(compare(*data_, v, w, axis), statistics);
+}
+
+bool Geometry::same_position(const Vertex& v, const Vertex& w, TierStatistics& statistics) const {
+  return recorded(exactcsg::same_position(*data_, v, w), statistics) == Sign::Zero;
+}
+
+std::strong_ordering Geometry::compare_position(const Vertex& v, const Vertex& w,
+                                                TierStatistics& statistics) const {
+  if (const Sign sign = filtered_compare(v, w, Axis::X); sign != Sign::Zero) {
+    return ordering(recorded({sign, Tier::Double}, statistics));
+  }
+  Decision result = exactcsg::same_position(*data_, v, w);
+  if (!equal(result)) {
+    for (const Axis axis : axes) {
+      const Decision along = compare(*data_, v, w, axis);
+      result = {along.sign, std::max(result.tier, along.tier)};
+      if (!equal(along)) break;
+    }
+  }
+  return ordering(recorded(result, statistics));
+}
+
+Sign Geometry::orientation(PlaneRef p, PlaneRef q, PlaneRef r, TierStatistics& statistics) const {
+  const auto parallel = [this](PlaneRef s, PlaneRef t) {
+    const auto axis = perpendicular_axis(*data_, s);
+    return s == t || (axis && axis == perpendicular_axis(*data_, t));
+  };
+  const ApproximateDeterminant det =
+      approximate_determinant(approximate(p), approximate(q), approximate(r));
+  if (std::fabs(det.value) > det.error) {
+    return recorded({sign_of_difference(det.value, 0), Tier::Double}, statistics);
+  }
+  if (parallel(p, q) || parallel(q, r) || parallel(r, p)) {
+    return recorded({Sign::Zero, Tier::Symbolic}, statistics);
+  }
+  const std::array<PlaneOperand, 3> planes{data_->operand(p), data_->operand(q), data_->operand(r)};
+  return recorded(decide(bits_of_meeting_point(planes).denominator,
+                         [&planes]<class T>() {
+                           const Coefficients<T> second = load<T>(planes[1]);
+                           const Coefficients<T> third = load<T>(planes[2]);
+                           return sign_of(T(determinant(load<T>(planes[0]), cross(second, third))));
+                         }),
+                  statistics);
+}
+
+}  // namespace exactcsg
