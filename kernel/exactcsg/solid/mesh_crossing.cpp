@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// No two facets of a mesh meet in anything but common vertices and common edges.
+//
+// Two convex facets F and G in different planes meet along the line L of their planes: F cuts an
+// interval from L, and so does G. Its ends are where F's outline passes through G's plane, and two
+// such ends, on a segment pq of F and a segment rs of G, are ordered along L by the orientation of
+// p, q, r, s (P. Guigue and O. Devillers, "Fast and robust triangle-triangle overlap test using
+// orientation predicates", Journal of Graphics Tools 8, 2003): no point is ever constructed.
+// Facets in one plane are disjoint, but for their outlines, if a side of one separates them.
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "exactcsg/solid/box_pairs.hpp"
+#include "exactcsg/solid/polyhedron_check.hpp"
+#include "exactcsg/support/error.hpp"
+
+namespace exactcsg {
+
+namespace {
+
+using Index = std::uint32_t;
+
+// Where the outline of a facet meets the other facet's plane: on the segment from `low` (behind the
+// plane or in it) to `high` (in front of it or in it), at `vertex` if that is a vertex.
+struct Passage {
+  Index low = 0;
+  Index high = 0;
+  std::optional<Index> vertex;
+};
+
+// The part of L that a facet covers, in the direction of (normal of F) x (normal of G).
+struct Interval {
+  Passage start;
+  Passage end;
+};
+
+struct Situation {
+  std::vector<Sign> signs;  // of the facet's vertices with respect to the other plane
+  bool front = false;       // some vertex strictly in front
+  bool behind = false;
+  std::vector<std::size_t> on;  // positions in the facet of the vertices in the other plane
+};
+
+bool contains(const Facet& facet, Index v) {
+  return std::find(facet.begin(), facet.end(), v) != facet.end();
+}
+
+void situate(const PolyhedronSigns& signs, const Facet& facet, const Facet& other,
+             const FacetFrame& plane, Situation& s) {
+  s.signs.clear();
+  s.on.clear();
+  s.front = s.behind = false;
+  const auto [a, b, c] = plane.corners;
+  for (std::size_t k = 0; k < facet.size(); ++k) {
+    const Index v = facet[k];
+    const Sign sign = contains(other, v) ? Sign::Zero : signs.orientation(a, b, c, v);
+    s.signs.push_back(sign);
+    if (sign == Sign::Zero) s.on.push_back(k);
+    s.front = s.front || sign == Sign::Positive;
+    s.behind = s.behind || sign == Sign::Negative;
+  }
+}
+
+class Pair {
+ public:
+  Pair(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
+       const std::vector<FacetFrame>& frames, Index f, Index g, Situation& of_f, Situation& of_g)
+      : signs_(signs),
+        f_(polyhedron.facets[f]),
+        g_(polyhedron.facets[g]),
+        f_frame_(frames[f]),
+        of_f_(of_f),
+        of_g_(of_g),
+        g_frame_(frames[g]) {}
+
+  // True if they meet in common vertices and edges only.
+  bool proper() {
+    situate(signs_, g_, f_, f_frame_, of_g_);
+    if (of_g_.on.empty() && of_g_.front != of_g_.behind) return true;
+    situate(signs_, f_, g_, g_frame_, of_f_);
+    if (of_f_.on.empty() && of_f_.front != of_f_.behind) return true;
+    if (of_g_.on.size() == g_.size()) return proper_in_one_plane();
+    return proper_across();
+  }
+
+ private:
+  bool proper_across() const {
+    // F's outline runs from behind G's plane to its front where the interval starts, G's outline
+    // where it ends (F in z = 0, G in y = 0, both counter-clockwise: L runs along -x).
+    const Interval f = interval(f_, of_f_, true);
+    const Interval g = interval(g_, of_g_, false);
+    const Sign gap_after_f = order(f.end, g.start);
+    const Sign gap_after_g = order_reversed(g.end, f.start);
+    if (gap_after_f == Sign::Positive || gap_after_g == Sign::Positive) return true;
+    if (gap_after_f == Sign::Zero) return common(f.end, g.start);
+    if (gap_after_g == Sign::Zero) return common(f.start, g.end);
+    // A whole interval in common. It is either one point of one of them ...
+    if (is_point(f)) return contains(g_, *f.start.vertex);
+    if (is_point(g)) return contains(f_, *g.start.vertex);
+    // ... or must be a chain of common edges.
+    const Passage& low = order(f.start, g.start) == Sign::Positive ? g.start : f.start;
+    const Passage& high = order(f.end, g.end) == Sign::Negative ? g.end : f.end;
+    if (!low.vertex || !high.vertex) return false;
+    return common_chain(*low.vertex, *high.vertex);
+  }
+
+  // The sign of (position of y) - (position of x) along L, x on F and y on G.
+  Sign order(const Passage& x, const Passage& y) const {
+    if (x.vertex && y.vertex && *x.vertex == *y.vertex) return Sign::Zero;
+    return signs_.orientation(x.low, x.high, y.low, y.high);
+  }
+  Sign order_reversed(const Passage& y, const Passage& x) const { return -order(x, y); }
+
+  static bool common(const Passage& x, const Passage& y) {
+    return x.vertex && y.vertex && *x.vertex == *y.vertex;
+  }
+  static bool is_point(const Interval& i) {
+    return i.start.vertex && i.end.vertex && *i.start.vertex == *i.end.vertex;
+  }
+
+  Interval interval(const Facet& facet, const Situation& s, bool rising_starts) const {
+    Interval result;
+    const std::size_t n = facet.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t next = (k + 1) % n;
+      const Sign a = s.signs[k];
+      const Sign b = s.signs[next];
+      if (a == b) continue;
+      const bool rising = static_cast<int>(a) < static_cast<int>(b);
+      Passage& passage = rising == rising_starts ? result.start : result.end;
+      passage.low = rising ? facet[k] : facet[next];
+      passage.high = rising ? facet[next] : facet[k];
+      if (a == Sign::Zero) passage.vertex = facet[k];
+      if (b == Sign::Zero) passage.vertex = facet[next];
+    }
+    return result;
+  }
+
+  // Both facets have the same consecutive vertices from v to w, along sides.
+  bool common_chain(Index v, Index w) const {
+    return same_chain(f_, g_, v, w) || same_chain(f_, g_, w, v);
+  }
+  // Walks F from v to w along its vertices in the common line and G from w to v.
+  bool same_chain(const Facet& f, const Facet& g, Index v, Index w) const {
+    const auto in_f = std::find(f.begin(), f.end(), v);
+    const auto in_g = std::find(g.begin(), g.end(), v);
+    if (in_f == f.end() || in_g == g.end()) return false;
+    for (const bool same_direction : {false, true}) {
+      std::size_t i = static_cast<std::size_t>(in_f - f.begin());
+      std::size_t j = static_cast<std::size_t>(in_g - g.begin());
+      while (true) {
+        i = (i + 1) % f.size();
+        j = same_direction ? (j + 1) % g.size() : (j + g.size() - 1) % g.size();
+        if (f[i] != g[j] || f[i] == v) break;
+        if (!straight_from(v, w, f[i])) break;
+        if (f[i] == w) return true;
+      }
+    }
+    return false;
+  }
+  bool straight_from(Index v, Index w, Index x) const {
+    if (x == w) return true;
+    for (CoordinateIndex dropped = 0; dropped < 3; ++dropped) {
+      if (signs_.turn(dropped, v, w, x) != Sign::Zero) return false;
+    }
+    return true;
+  }
+
+  bool proper_in_one_plane() const {
+    for (const auto& [facet, frame, other] :
+         {std::tuple{&f_, &f_frame_, &g_}, std::tuple{&g_, &g_frame_, &f_}}) {
+      for (std::size_t k = 0; k < facet->size(); ++k) {
+        const Index a = (*facet)[k];
+        const Index b = (*facet)[(k + 1) % facet->size()];
+        if (!separates(a, b, *frame, *other)) continue;
+        return proper_along(a, b);
+      }
+    }
+    return false;
+  }
+
+  Sign turn(const FacetFrame& frame, Index a, Index b, Index v) const {
+    if (v == a || v == b) return Sign::Zero;
+    return signs_.turn(frame.dropped, a, b, v) * frame.sign;
+  }
+
+  bool separates(Index a, Index b, const FacetFrame& frame, const Facet& other) const {
+    return std::all_of(other.begin(), other.end(),
+                       [&](Index v) { return turn(frame, a, b, v) != Sign::Positive; });
+  }
+
+  // Both facets lie on different sides of the line ab: what they have in common is in it.
+  bool proper_along(Index a, Index b) const {
+    const std::vector<Index> on_f = along(f_, a, b);
+    const std::vector<Index> on_g = along(g_, a, b);
+    if (on_f.empty() || on_g.empty()) return true;
+    CoordinateIndex coordinate = 0;
+    while (signs_.compare(coordinate, a, b) == Sign::Zero) ++coordinate;
+    const auto later = [&](Index v, Index w) {
+      return v == w ? Sign::Zero : signs_.compare(coordinate, v, w);
+    };
+    const auto [f_low, f_high] = extremes(on_f, later);
+    const auto [g_low, g_high] = extremes(on_g, later);
+    const Index low = later(f_low, g_low) == Sign::Positive ? g_low : f_low;
+    const Index high = later(f_high, g_high) == Sign::Negative ? g_high : f_high;
+    const Sign length = later(low, high);
+    if (length == Sign::Negative) return true;
+    if (length == Sign::Zero) return contains(f_, low) && contains(g_, low);
+    return common_chain(low, high);
+  }
+
+  std::vector<Index> along(const Facet& facet, Index a, Index b) const {
+    std::vector<Index> on;
+    for (const Index v : facet) {
+      if (turn(f_frame_, a, b, v) == Sign::Zero) on.push_back(v);
+    }
+    return on;
+  }
+
+  template <class Later>
+  static std::pair<Index, Index> extremes(const std::vector<Index>& vertices, const Later& later) {
+    std::pair<Index, Index> result{vertices.front(), vertices.front()};
+    for (const Index v : vertices) {
+      if (later(v, result.first) == Sign::Positive) result.first = v;
+      if (later(result.second, v) == Sign::Positive) result.second = v;
+    }
+    return result;
+  }
+
+  const PolyhedronSigns& signs_;
+  const Facet& f_;
+  const Facet& g_;
+  const FacetFrame& f_frame_;
+  Situation& of_f_;
+  Situation& of_g_;
+  const FacetFrame& g_frame_;
+};
+
+}  // namespace
+
+std::vector<DoubleBox> facet_boxes(const Polyhedron& polyhedron, const PolyhedronSigns& signs) {
+  std::vector<DoubleBox> boxes;
+  boxes.reserve(polyhedron.facets.size());
+  for (const Facet& facet : polyhedron.facets) {
+    DoubleBox box{signs.approximate(facet.front()), signs.approximate(facet.front())};
+    for (const Index v : facet) box = join(box, {signs.approximate(v), signs.approximate(v)});
+    for (std::size_t i = 0; i < 3; ++i) {
+      // Twice the error: the subtraction itself rounds.
+      box.lower[i] -= 2 * signs.coordinate_error();
+      box.upper[i] += 2 * signs.coordinate_error();
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+void check_crossings(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
+                     const std::vector<FacetFrame>& frames) {
+  const std::vector<DoubleBox> boxes = facet_boxes(polyhedron, signs);
+  Situation of_f;
+  Situation of_g;
+  BoxHierarchy(boxes).for_each_pair([&](Index i, Index j) {
+    const auto [f, g] = std::minmax(i, j);
+    if (Pair(polyhedron, signs, frames, f, g, of_f, of_g).proper()) return;
+    throw Error(ErrorId::SelfIntersectingMesh,
+                {describe_facet(polyhedron, f) + " and " + describe_facet(polyhedron, g),
+                 "facets that meet in common vertices and edges only"});
+  });
+}
+
+}  // namespace exactcsg

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Exact signs over the vertices of one polyhedron: a double filter first, then integers of fixed
+// width where the coordinates are short, then unbounded integers. [Exact]
+//
+// For the checks of primitive.hpp, which look at one polyhedron at a time; the evaluator has the
+// richer number/geometry.hpp.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "exactcsg/number/point.hpp"
+
+namespace exactcsg {
+
+// 0, 1, 2: x, y, z.
+using CoordinateIndex = unsigned;
+
+class PolyhedronSigns {
+ public:
+  using Index = std::uint32_t;
+
+  explicit PolyhedronSigns(std::span<const Point3> points);
+
+  // Adds the weighted mean of given points and returns its index.
+  // REQUIRES every weight > 0 and no index of an added mean
+  Index add_mean(std::span<const std::pair<Index, unsigned>> weighted);
+
+  // The sign of ((b - a) x (c - a)) . (d - a): Positive if d lies on the side of the plane a, b, c
+  // from which these are seen counter-clockwise.
+  Sign orientation(Index a, Index b, Index c, Index d) const;
+  // The sign of one component of (b - a) x (c - a): the turn a, b, c in the projection along it.
+  Sign turn(CoordinateIndex dropped, Index a, Index b, Index c) const;
+  // The sign of b's coordinate minus a's.
+  Sign compare(CoordinateIndex coordinate, Index a, Index b) const;
+  // The sign of the sum of det(a, b, c) over triangles: six times the signed volume if the
+  // triangles close up.
+  Sign volume(std::span<const std::array<Index, 3>> triangles) const;
+
+  // Nearest doubles; the true coordinates differ by at most coordinate_error().
+  const std::array<double, 3>& approximate(Index i) const { return approximate_[i]; }
+  double coordinate_error() const { return coordinate_error_; }
+
+ private:
+  using Exact = std::array<Integer, 3>;
+  Exact difference(Index from, Index to) const;
+  void append(const Exact& numerators, const Integer& weight);
+
+  std::vector<std::array<double, 3>> approximate_;
+  double point_error_ = 0;       // of the points given
+  double coordinate_error_ = 0;  // of these and of the means
+  // Coordinates of all points times one common positive factor (a sign does not feel it), each to
+  // be divided by the point's own positive weight.
+  std::vector<Exact> exact_;
+  std::vector<Integer> weight_;
+  bool unit_weights_ = true;
+  // The same as machine integers if all weights are 1 and every magnitude is below 2^40.
+  std::vector<std::array<std::int64_t, 3>> small_;
+};
+
+}  // namespace exactcsg
