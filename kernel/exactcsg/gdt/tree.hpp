@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// The geometric decomposition tree: the retained form of a recursive division, such as an octree
+// whose leaves hold what is known of their cell. [Exact]
+//
+// A tree is Terminal(T), or Interior with children of any number and a label N (the plane that
+// divides the cell, say; none by default). It is a value in three arrays, without pointers.
+//
+// LAW gdt.1  the children of a node keep their order; so do the terminals, from left to right.
+// LAW gdt.2  nothing recurses on the depth: a tree a million deep is copied, traversed, destroyed.
+// Reading from several threads at once is safe. A moved-from tree may only be assigned or
+// destroyed. COST: 12 bytes a node besides the T and N. At most 2^32 - 2 nodes, else THROWS
+// Error(TooLarge).
+//
+// Source: Davy and Dew, section 3.3; labels make it the multi-resolution tree of 3.7 as well, and
+// let a path be followed (section 6.1 misses that).
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <ranges>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "exactcsg/gdt/subtree.hpp"
+#include "exactcsg/support/error.hpp"
+
+namespace exactcsg::gdt {
+
+struct NoLabel {
+  friend bool operator==(NoLabel, NoLabel) = default;
+};
+
+template <class T, class N = NoLabel>
+class Tree {
+ public:
+  using Terminal = T;
+  using Label = N;
+
+  // One node of a tree that outlives it.
+  class Node {
+   public:
+    bool is_terminal() const noexcept { return record().degree == terminal_mark; }
+    // REQUIRES is_terminal()
+    const T& terminal() const noexcept { return tree_->terminals_[record().payload]; }
+    // REQUIRES !is_terminal(), these three; index < degree().
+    const N& label() const noexcept { return tree_->labels_[record().payload]; }
+    std::size_t degree() const noexcept { return record().degree; }
+    Node child(std::size_t index) const noexcept {
+      return Node(*tree_, record().first_child + static_cast<std::uint32_t>(index));
+    }
+    auto children() const noexcept {
+      return std::views::iota(std::size_t{0}, degree()) |
+             std::views::transform([node = *this](std::size_t i) { return node.child(i); });
+    }
+
+   private:
+    friend class Tree;
+    Node(const Tree& tree, std::uint32_t index) noexcept : tree_(&tree), index_(index) {}
+    const auto& record() const noexcept { return tree_->nodes_[index_]; }
+    const Tree* tree_;
+    std::uint32_t index_;
+  };
+
+  static Tree terminal(T value) { return Tree(detail::Subtree<T, N>::terminal(std::move(value))); }
+  // COST: O(nodes of the children); to build a large tree, use create.
+  static Tree interior(std::vector<Tree> children, N label = {});
+
+  // From the linked form that create builds. COST: O(nodes).
+  explicit Tree(detail::Subtree<T, N> root);
+
+  Node root() const noexcept { return Node(*this, 0); }
+  std::size_t node_count() const noexcept { return nodes_.size(); }
+  // From left to right.
+  std::span<const T> terminals() const noexcept { return terminals_; }
+
+  friend bool operator==(
+      const Tree&, const Tree&) requires std::equality_comparable<T> && std::equality_comparable<N>
+  = default;
+
+ private:
+  static constexpr std::uint32_t terminal_mark = std::numeric_limits<std::uint32_t>::max();
+
+  // The children of a node are neighbours, so that one number leads to any of them.
+  struct Record {
+    std::uint32_t first_child = 0;
+    std::uint32_t degree = terminal_mark;
+    std::uint32_t payload = 0;  // of a terminal or label
+    friend bool operator==(const Record&, const Record&) = default;
+  };
+
+  // One label is as good as all where it says nothing.
+  struct OneLabel {
+    N label{};
+    const N& operator[](std::size_t) const noexcept { return label; }
+    std::size_t size() const noexcept { return 0; }
+    void push_back(N) noexcept {}
+    friend bool operator==(const OneLabel&, const OneLabel&) { return true; }
+  };
+  using Labels = std::conditional_t<std::is_empty_v<N>, OneLabel, std::vector<N>>;
+
+  Tree() noexcept = default;
+  void fill(std::uint32_t index, detail::Subtree<T, N>& from);
+  void adopt(std::size_t index, Tree child);
+
+  std::vector<Record> nodes_;
+  Labels labels_;
+  std::vector<T> terminals_;
+};
+
+template <class T, class N>
+void Tree<T, N>::fill(std::uint32_t index, detail::Subtree<T, N>& from) {
+  if (from.is_terminal()) {
+    nodes_[index].payload = static_cast<std::uint32_t>(terminals_.size());
+    terminals_.push_back(std::move(from.terminal()));
+    return;
+  }
+  const std::size_t degree = from.children().size();
+  if (degree >= terminal_mark - nodes_.size()) {
+    throw Error(ErrorId::TooLarge, {"more than 2^32 - 2 nodes in a decomposition tree", ""});
+  }
+  nodes_[index] = {static_cast<std::uint32_t>(nodes_.size()), static_cast<std::uint32_t>(degree),
+                   static_cast<std::uint32_t>(labels_.size())};
+  labels_.push_back(std::move(from.label()));
+  nodes_.resize(nodes_.size() + degree);
+}
+
+// Takes the subtrees apart from left to right; each dies as soon as it has been copied.
+template <class T, class N>
+Tree<T, N>::Tree(detail::Subtree<T, N> root) {
+  std::vector<std::pair<std::uint32_t, detail::Subtree<T, N>>> pending;
+  nodes_.emplace_back();
+  pending.emplace_back(0U, std::move(root));
+  while (!pending.empty()) {
+    const auto index = pending.back().first;
+    detail::Subtree<T, N> subtree = std::move(pending.back().second);
+    pending.pop_back();
+    fill(index, subtree);
+    if (subtree.is_terminal()) continue;
+    auto children = std::move(subtree.children());
+    const std::uint32_t first = nodes_[index].first_child;
+    for (std::size_t i = children.size(); i-- > 0;) {
+      pending.emplace_back(first + static_cast<std::uint32_t>(i), std::move(children[i]));
+    }
+  }
+}
+
+template <class T, class N>
+Tree<T, N> Tree<T, N>::interior(std::vector<Tree> children, N label) {
+  Tree result;
+  result.nodes_.push_back({1, static_cast<std::uint32_t>(children.size()), 0});
+  result.labels_.push_back(std::move(label));
+  result.nodes_.resize(1 + children.size());
+  for (std::size_t i = 0; i < children.size(); ++i) result.adopt(1 + i, std::move(children[i]));
+  return result;
+}
+
+template <class T, class N>
+void Tree<T, N>::adopt(std::size_t index, Tree child) {
+  if (child.nodes_.size() >= terminal_mark - nodes_.size()) {
+    throw Error(ErrorId::TooLarge, {"more than 2^32 - 2 nodes in a decomposition tree", ""});
+  }
+  const auto nodes_before = static_cast<std::uint32_t>(nodes_.size() - 1);  // less the child's root
+  const auto terminals_before = static_cast<std::uint32_t>(terminals_.size());
+  const auto labels_before = static_cast<std::uint32_t>(labels_.size());
+  const auto moved = [&](Record record) {
+    if (record.degree == terminal_mark) {
+      record.payload += terminals_before;
+    } else {
+      record.payload += labels_before;
+      record.first_child += nodes_before;
+    }
+    return record;
+  };
+  nodes_[index] = moved(child.nodes_[0]);
+  for (std::size_t i = 1; i < child.nodes_.size(); ++i) nodes_.push_back(moved(child.nodes_[i]));
+  for (T& terminal : child.terminals_) terminals_.push_back(std::move(terminal));
+  for (std::size_t i = 0; i < child.labels_.size(); ++i) {
+    labels_.push_back(std::move(child.labels_[i]));
+  }
+}
+
+}  // namespace exactcsg::gdt
