@@ -1,0 +1,590 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/canonical_boundary.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "exactcsg/solid/box_pairs.hpp"
+#include "exactcsg/solid/face_loops.hpp"
+#include "exactcsg/solid/line_interning.hpp"
+#include "exactcsg/solid/vertex_interning.hpp"
+
+namespace exactcsg {
+
+namespace {
+
+using VertexNumber = std::uint32_t;
+using LineNumber = std::uint32_t;
+using PieceNumber = std::uint32_t;
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+[[noreturn]] void broken(const char* what) { throw Error(ErrorId::InternalError, {what, ""}); }
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  std::uint32_t find(std::uint32_t item) {
+    while (parent_[item] != item) {
+      parent_[item] = parent_[parent_[item]];
+      item = parent_[item];
+    }
+    return item;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    // The smaller number leads: independent of the order of calls.
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// A piece's edge as the face's boundary would walk it: the piece on the left, seen from outside.
+struct PieceEdge {
+  OrientedPlaneRef plane;
+  PlaneRef side_plane;
+  VertexNumber from;
+  VertexNumber to;
+  PieceNumber piece;
+};
+
+// Part of a line that bounds pieces of one oriented plane on one side only.
+struct Segment {
+  OrientedPlaneRef plane;
+  VertexNumber from;
+  VertexNumber to;
+  PieceNumber piece;
+};
+
+// The segments of one line, and the vertices on it in order.
+struct LineContent {
+  std::vector<Segment> segments;
+  std::vector<VertexNumber> stations;
+};
+
+class Merger {
+ public:
+  Merger(const Geometry& geometry, const std::vector<PieceBuffer>& buffers, Progress* progress)
+      : geometry_(geometry), progress_(progress), faces_(count_pieces(buffers)) {
+    number_vertices(buffers);
+  }
+
+  Boundary merge() {
+    std::vector<PieceEdge> edges = cancel_equal_edges();
+    check();
+    const std::vector<LineNumber> line_of_edge = number_lines(edges);
+    check();
+    add_up(edges, line_of_edge);
+    check();
+    mark_vertices();
+    touch_edges();
+    check();
+    return assemble();
+  }
+
+ private:
+  static std::size_t count_pieces(const std::vector<PieceBuffer>& buffers) {
+    std::size_t count = 0;
+    for (const PieceBuffer& buffer : buffers) count += buffer.pieces.size();
+    return count;
+  }
+
+  void check() const {
+    if (progress_ != nullptr) progress_->check();
+  }
+
+  // Sets vertices_ and edges_.
+  void number_vertices(const std::vector<PieceBuffer>& buffers) {
+    std::vector<const Vertex*> corners;
+    for (const PieceBuffer& buffer : buffers) {
+      for (const Corner& corner : buffer.corners) corners.push_back(&corner.vertex);
+    }
+    InternedVertices interned = intern(geometry_, corners, statistics_);
+    vertices_ = std::move(interned.distinct);
+    edges_.reserve(corners.size());
+    std::size_t base = 0;
+    PieceNumber number = 0;
+    for (const PieceBuffer& buffer : buffers) {
+      for (const BoundaryPiece& piece : buffer.pieces) {
+        for (std::uint32_t i = 0; i < piece.corner_count; ++i) {
+          const std::uint32_t next = i + 1 == piece.corner_count ? 0 : i + 1;
+          VertexNumber from = interned.number[base + piece.first_corner + i];
+          VertexNumber to = interned.number[base + piece.first_corner + next];
+          if (from == to) broken("a piece of boundary with two equal corners");
+          if (piece.corner_sense != piece.plane.sense) std::swap(from, to);
+          edges_.push_back(
+              {piece.plane, buffer.corners[piece.first_corner + i].side_plane, from, to, number});
+        }
+        ++number;
+      }
+      base += buffer.corners.size();
+    }
+    statistics_pieces_ = number;
+  }
+
+  // Most seams have the same two ends on both sides: they cancel without a look at their line.
+  std::vector<PieceEdge> cancel_equal_edges() {
+    struct Keyed {
+      std::uint64_t ends;
+      std::uint32_t edge;
+    };
+    std::vector<Keyed> order;
+    order.reserve(edges_.size());
+    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+      const auto [low, high] = std::minmax(edges_[i].from, edges_[i].to);
+      order.push_back({(static_cast<std::uint64_t>(low) << 32U) | high, i});
+    }
+    std::sort(order.begin(), order.end(), [&](const Keyed& a, const Keyed& b) {
+      if (a.ends != b.ends) return a.ends < b.ends;
+      const PieceEdge& p = edges_[a.edge];
+      const PieceEdge& q = edges_[b.edge];
+      if (p.plane != q.plane) return p.plane < q.plane;
+      if (p.from != q.from) return p.from < q.from;
+      return a.edge < b.edge;
+    });
+    std::vector<PieceEdge> left;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const PieceEdge& edge = edges_[order[i].edge];
+      if (i + 1 < order.size() && order[i + 1].ends == order[i].ends) {
+        const PieceEdge& other = edges_[order[i + 1].edge];
+        if (other.plane == edge.plane) {
+          if (other.from == edge.from) broken("two pieces of boundary that overlap");
+          faces_.unite(edge.piece, other.piece);
+          ++i;
+          continue;
+        }
+      }
+      left.push_back(edge);
+    }
+    edges_ = {};
+    return left;
+  }
+
+  std::vector<LineNumber> number_lines(const std::vector<PieceEdge>& edges) {
+    std::vector<std::uint32_t> order(edges.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto planes_of = [&](std::uint32_t i) {
+      return std::minmax(edges[i].plane.plane, edges[i].side_plane);
+    };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const auto p = planes_of(a);
+      const auto q = planes_of(b);
+      if (p.first != q.first) return p.first < q.first;
+      if (p.second != q.second) return p.second < q.second;
+      return a < b;
+    });
+    std::vector<LineSample> samples;
+    std::vector<std::uint32_t> sample_of_edge(edges.size());
+    for (const std::uint32_t i : order) {
+      const auto planes = planes_of(i);
+      if (samples.empty() || samples.back().first != planes.first ||
+          samples.back().second != planes.second) {
+        samples.push_back(
+            {planes.first, planes.second, &vertices_[edges[i].from], &vertices_[edges[i].to]});
+      }
+      sample_of_edge[i] = static_cast<std::uint32_t>(samples.size() - 1);
+    }
+    InternedLines interned = intern(geometry_, samples, statistics_);
+    lines_ = std::move(interned.distinct);
+    // The samples point into vertices_, which may grow.
+    for (LineSample& line : lines_) line.from = line.to = nullptr;
+    std::vector<LineNumber> result(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      result[i] = interned.number[sample_of_edge[i]];
+    }
+    return result;
+  }
+
+  // Vertices of one line in ascending order of their position on it.
+  void sort_along(LineNumber line, std::vector<VertexNumber>& stations) {
+    const std::optional<Axis> axis = axis_along(geometry_, lines_[line]);
+    std::sort(stations.begin(), stations.end());
+    stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
+    std::sort(stations.begin(), stations.end(), [&](VertexNumber a, VertexNumber b) {
+      if (a == b) return false;
+      const Vertex& v = vertices_[a];
+      const Vertex& w = vertices_[b];
+      if (axis) return geometry_.compare_coordinate(v, w, *axis, statistics_) == Sign::Negative;
+      return geometry_.compare_position(v, w, statistics_) < 0;
+    });
+  }
+
+  void add_up(const std::vector<PieceEdge>& edges, const std::vector<LineNumber>& line_of_edge) {
+    std::vector<std::uint32_t> order(edges.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      if (line_of_edge[a] != line_of_edge[b]) return line_of_edge[a] < line_of_edge[b];
+      if (edges[a].plane != edges[b].plane) return edges[a].plane < edges[b].plane;
+      return a < b;
+    });
+    content_.resize(lines_.size());
+    std::vector<std::uint32_t> rank(vertices_.size(), none);
+    for (std::size_t begin = 0; begin < order.size();) {
+      const LineNumber line = line_of_edge[order[begin]];
+      std::size_t end = begin;
+      std::vector<VertexNumber> stations;
+      for (; end < order.size() && line_of_edge[order[end]] == line; ++end) {
+        stations.push_back(edges[order[end]].from);
+        stations.push_back(edges[order[end]].to);
+      }
+      sort_along(line, stations);
+      for (std::uint32_t i = 0; i < stations.size(); ++i) rank[stations[i]] = i;
+      for (std::size_t group = begin; group < end;) {
+        std::size_t group_end = group;
+        while (group_end < end && edges[order[group_end]].plane == edges[order[group]].plane) {
+          ++group_end;
+        }
+        add_up_on_plane(edges, std::span(order).subspan(group, group_end - group), stations, rank,
+                        content_[line].segments);
+        group = group_end;
+      }
+      begin = end;
+    }
+  }
+
+  struct Event {
+    std::uint32_t rank;
+    bool opens;
+    bool forward;
+    PieceNumber piece;
+  };
+
+  void add_up_on_plane(const std::vector<PieceEdge>& edges, std::span<const std::uint32_t> group,
+                       const std::vector<VertexNumber>& stations,
+                       const std::vector<std::uint32_t>& rank, std::vector<Segment>& result) {
+    if (group.size() == 1) {
+      const PieceEdge& edge = edges[group[0]];
+      result.push_back({edge.plane, edge.from, edge.to, edge.piece});
+      return;
+    }
+    std::vector<Event> events;
+    events.reserve(2 * group.size());
+    for (const std::uint32_t i : group) {
+      const PieceEdge& edge = edges[i];
+      const bool forward = rank[edge.from] < rank[edge.to];
+      const auto [low, high] = std::minmax(rank[edge.from], rank[edge.to]);
+      events.push_back({low, true, forward, edge.piece});
+      events.push_back({high, false, forward, edge.piece});
+    }
+    std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+      if (a.rank != b.rank) return a.rank < b.rank;
+      return a.opens < b.opens;  // close first: pieces may follow one another
+    });
+    // The pieces that are left (forward) and right of the present stretch of the line.
+    std::optional<PieceNumber> left;
+    std::optional<PieceNumber> right;
+    for (std::size_t i = 0; i < events.size();) {
+      const std::uint32_t here = events[i].rank;
+      for (; i < events.size() && events[i].rank == here; ++i) {
+        std::optional<PieceNumber>& side = events[i].forward ? left : right;
+        if (events[i].opens == side.has_value()) broken("two pieces of boundary that overlap");
+        side = events[i].opens ? std::optional(events[i].piece) : std::nullopt;
+      }
+      if (i == events.size()) break;
+      const VertexNumber from = stations[here];
+      const VertexNumber to = stations[events[i].rank];
+      if (left && right) {
+        faces_.unite(*left, *right);
+      } else if (left) {
+        result.push_back({edges[group[0]].plane, from, to, *left});
+      } else if (right) {
+        result.push_back({edges[group[0]].plane, to, from, *right});
+      }
+    }
+  }
+
+  // A vertex is where segments of two or more lines end.
+  void mark_vertices() {
+    is_vertex_.assign(vertices_.size(), false);
+    std::vector<LineNumber> first_line(vertices_.size(), none);
+    for (LineNumber line = 0; line < content_.size(); ++line) {
+      for (const Segment& segment : content_[line].segments) {
+        for (const VertexNumber end : {segment.from, segment.to}) {
+          if (first_line[end] == none) first_line[end] = line;
+          if (first_line[end] != line) is_vertex_[end] = true;
+        }
+      }
+    }
+    for (LineNumber line = 0; line < content_.size(); ++line) collect_stations(line);
+  }
+
+  void collect_stations(LineNumber line) {
+    LineContent& content = content_[line];
+    for (const Segment& segment : content.segments) {
+      for (const VertexNumber end : {segment.from, segment.to}) content.stations.push_back(end);
+    }
+    sort_along(line, content.stations);
+  }
+
+  struct Span {
+    LineNumber line;
+    VertexNumber from;
+    VertexNumber to;
+  };
+
+  // The parts of a line between neighbouring vertices that some segment covers.
+  std::vector<Span> spans() {
+    std::vector<Span> result;
+    for (LineNumber line = 0; line < content_.size(); ++line) {
+      for_each_run(line, [&](const Segment&, VertexNumber from, VertexNumber to) {
+        const auto [low, high] = std::minmax(from, to);
+        result.push_back({line, low, high});
+      });
+    }
+    std::sort(result.begin(), result.end(), [](const Span& a, const Span& b) {
+      return std::tie(a.line, a.from, a.to) < std::tie(b.line, b.from, b.to);
+    });
+    result.erase(std::unique(result.begin(), result.end(),
+                             [](const Span& a, const Span& b) {
+                               return a.line == b.line && a.from == b.from && a.to == b.to;
+                             }),
+                 result.end());
+    return result;
+  }
+
+  // visit(segment, from, to) for the segments of each oriented plane, joined where they continue one
+  // another and cut at vertices.
+  template <class Visit>
+  void for_each_run(LineNumber line, Visit visit) {
+    const LineContent& content = content_[line];
+    if (content.segments.empty()) return;
+    rank_.resize(vertices_.size(), 0);
+    for (std::uint32_t i = 0; i < content.stations.size(); ++i) rank_[content.stations[i]] = i;
+    for (std::size_t begin = 0; begin < content.segments.size();) {
+      std::size_t end = begin;
+      while (end < content.segments.size() &&
+             content.segments[end].plane == content.segments[begin].plane) {
+        ++end;
+      }
+      run_along(content, begin, end, visit);
+      begin = end;
+    }
+  }
+
+  // The segments of one plane are ascending along the line and do not overlap.
+  template <class Visit>
+  void run_along(const LineContent& content, std::size_t begin, std::size_t end, Visit& visit) {
+    std::optional<std::uint32_t> start;  // rank where the present run began
+    bool forward = true;
+    const Segment* owner = nullptr;
+    for (std::size_t s = begin; s < end; ++s) {
+      const Segment& segment = content.segments[s];
+      const auto [low, high] = std::minmax(rank_[segment.from], rank_[segment.to]);
+      const bool goes_forward = rank_[segment.from] < rank_[segment.to];
+      if (is_vertex_[content.stations[low]]) {
+        if (start) broken("an edge that does not end at its vertex");
+        start = low;
+        forward = goes_forward;
+        owner = &segment;
+      }
+      if (!start || forward != goes_forward) broken("an edge that ends where there is no vertex");
+      for (std::uint32_t r = low + 1; r <= high; ++r) {
+        if (!is_vertex_[content.stations[r]]) continue;
+        const VertexNumber a = content.stations[*start];
+        const VertexNumber b = content.stations[r];
+        visit(*owner, forward ? a : b, forward ? b : a);
+        start = r;
+        owner = &segment;
+      }
+      // Ends in a vertex: the run is over unless the next segment goes on from here.
+      if (*start == high) start.reset();
+    }
+    if (start) broken("an edge that ends where there is no vertex");
+  }
+
+  // Edges that only touch: a vertex on another edge, or two edges that cross.
+  void touch_edges() {
+    const std::vector<Span> all = spans();
+    std::vector<DoubleBox> boxes;
+    boxes.reserve(all.size());
+    for (const Span& span : all) {
+      boxes.push_back(join(box_of(vertices_[span.from]), box_of(vertices_[span.to])));
+    }
+    std::vector<LineNumber> changed;
+    BoxHierarchy(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+      touch(all[i], all[j], changed);
+    });
+    if (changed.empty()) return;
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    for (const LineNumber line : changed) sort_along(line, content_[line].stations);
+  }
+
+  static DoubleBox box_of(const Vertex& v) {
+    DoubleBox box{};
+    const std::array<double, 3> position{v.x, v.y, v.z};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double slack = v.error + 0x1p-51 * std::abs(position[i]);
+      box.lower[i] = position[i] - slack;
+      box.upper[i] = position[i] + slack;
+    }
+    return box;
+  }
+
+  // The sides of a span's ends with respect to a plane.
+  std::array<Sign, 2> sides(const Span& span, PlaneRef plane) {
+    return {geometry_.side(vertices_[span.from], plane, statistics_),
+            geometry_.side(vertices_[span.to], plane, statistics_)};
+  }
+
+  void touch(const Span& a, const Span& b, std::vector<LineNumber>& changed) {
+    if (a.line == b.line) return;
+    if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) return;
+    const LineSample& line_a = lines_[a.line];
+    const LineSample& line_b = lines_[b.line];
+    std::optional<PlaneRef> crossing;
+    std::array<Sign, 2> crossing_sides{};
+    for (const PlaneRef plane : {line_b.first, line_b.second}) {
+      const auto side = sides(a, plane);
+      if (side[0] == side[1]) {
+        if (side[0] != Sign::Zero) return;
+        continue;
+      }
+      crossing = plane;
+      crossing_sides = side;
+    }
+    if (!crossing) return;
+    for (const PlaneRef plane : {line_a.first, line_a.second}) {
+      const auto side = sides(b, plane);
+      if (side[0] == side[1] && side[0] != Sign::Zero) return;
+    }
+    // The point of a's line in the crossing plane; it is on b's line iff in b's other plane as well.
+    VertexNumber number = none;
+    Vertex point;
+    if (crossing_sides[0] == Sign::Zero) {
+      number = a.from;
+      point = vertices_[number];
+    } else if (crossing_sides[1] == Sign::Zero) {
+      number = a.to;
+      point = vertices_[number];
+    } else {
+      point = geometry_.meet(line_a.first, line_a.second, *crossing);
+    }
+    const PlaneRef other = *crossing == line_b.first ? line_b.second : line_b.first;
+    if (geometry_.side(point, other, statistics_) != Sign::Zero) return;
+    if (!within(point, b)) return;
+    for (const VertexNumber end : {b.from, b.to}) {
+      if (number == none && geometry_.same_position(point, vertices_[end], statistics_)) {
+        number = end;
+      }
+    }
+    if (number == none) number = known_touching_point(point);
+    if (!is_vertex_[number]) is_vertex_[number] = true;
+    for (const LineNumber line : {a.line, b.line}) {
+      content_[line].stations.push_back(number);
+      changed.push_back(line);
+    }
+  }
+
+  // Points of the line only; both ends included.
+  bool within(const Vertex& point, const Span& span) {
+    const auto low = geometry_.compare_position(vertices_[span.from], vertices_[span.to],
+                                                statistics_) < 0
+                         ? span.from
+                         : span.to;
+    const VertexNumber high = low == span.from ? span.to : span.from;
+    return geometry_.compare_position(vertices_[low], point, statistics_) <= 0 &&
+           geometry_.compare_position(point, vertices_[high], statistics_) <= 0;
+  }
+
+  // Also finds points that are stations of a line but were no vertices so far.
+  VertexNumber known_touching_point(const Vertex& point) {
+    if (!touch_index_built_) {
+      touch_index_built_ = true;
+      by_x_.resize(vertices_.size());
+      std::iota(by_x_.begin(), by_x_.end(), 0U);
+      std::sort(by_x_.begin(), by_x_.end(), [&](VertexNumber a, VertexNumber b) {
+        return vertices_[a].x < vertices_[b].x;
+      });
+      for (const Vertex& v : vertices_) widest_error_ = std::max(widest_error_, v.error);
+    }
+    const double reach = 2 * (point.error + widest_error_) + 0x1p-50 * std::abs(point.x);
+    auto it = std::lower_bound(by_x_.begin(), by_x_.end(), point.x - reach,
+                               [&](VertexNumber a, double x) { return vertices_[a].x < x; });
+    for (; it != by_x_.end() && vertices_[*it].x <= point.x + reach; ++it) {
+      const Vertex& v = vertices_[*it];
+      if (std::abs(v.y - point.y) > 2 * (point.error + v.error) + 0x1p-50 * std::abs(v.y)) continue;
+      if (geometry_.same_position(v, point, statistics_)) return *it;
+    }
+    for (const VertexNumber number : added_) {
+      if (geometry_.same_position(vertices_[number], point, statistics_)) return number;
+    }
+    const auto number = static_cast<VertexNumber>(vertices_.size());
+    vertices_.push_back(point);
+    is_vertex_.push_back(false);
+    added_.push_back(number);
+    return number;
+  }
+
+  Boundary assemble() {
+    std::vector<FaceEdge> edges;
+    for (LineNumber line = 0; line < content_.size(); ++line) {
+      for_each_run(line, [&](const Segment& owner, VertexNumber from, VertexNumber to) {
+        edges.push_back({owner.plane, faces_.find(owner.piece), from, to});
+      });
+    }
+    std::vector<VertexNumber> used;
+    for (VertexNumber v = 0; v < vertices_.size(); ++v) {
+      if (is_vertex_[v]) used.push_back(v);
+    }
+    std::sort(used.begin(), used.end(), [&](VertexNumber a, VertexNumber b) {
+      return a != b && geometry_.compare_position(vertices_[a], vertices_[b], statistics_) < 0;
+    });
+    std::vector<VertexNumber> renumbered(vertices_.size(), none);
+    Boundary boundary;
+    boundary.vertices.reserve(used.size());
+    boundary.approximate.reserve(used.size());
+    for (const VertexNumber v : used) {
+      renumbered[v] = static_cast<VertexNumber>(boundary.vertices.size());
+      boundary.vertices.push_back(geometry_.exact_point(vertices_[v]));
+      const Point3& point = boundary.vertices.back();
+      boundary.approximate.push_back(
+          {nearest_double(point.x), nearest_double(point.y), nearest_double(point.z)});
+    }
+    for (FaceEdge& edge : edges) {
+      edge.from = renumbered[edge.from];
+      edge.to = renumbered[edge.to];
+      const auto [low, high] = std::minmax(edge.from, edge.to);
+      boundary.edges.push_back({low, high});
+    }
+    std::sort(boundary.edges.begin(), boundary.edges.end());
+    boundary.edges.erase(std::unique(boundary.edges.begin(), boundary.edges.end()),
+                         boundary.edges.end());
+    link_faces(geometry_, std::move(edges), boundary);
+    boundary.statistics.pieces = statistics_pieces_;
+    boundary.statistics.tiers = statistics_;
+    return boundary;
+  }
+
+  const Geometry& geometry_;
+  Progress* progress_;
+  TierStatistics statistics_;
+  std::uint64_t statistics_pieces_ = 0;
+  std::vector<PieceEdge> edges_;
+  std::vector<Vertex> vertices_;
+  DisjointSets faces_;
+  std::vector<LineSample> lines_;
+  std::vector<LineContent> content_;
+  std::vector<bool> is_vertex_;
+  std::vector<std::uint32_t> rank_;
+  bool touch_index_built_ = false;
+  std::vector<VertexNumber> by_x_;
+  std::vector<VertexNumber> added_;
+  double widest_error_ = 0;
+};
+
+}  // namespace
+
+Boundary merge_pieces(const Geometry& geometry, const std::vector<PieceBuffer>& buffers,
+                      Progress* progress) {
+  return Merger(geometry, buffers, progress).merge();
+}
+
+}  // namespace exactcsg

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/cell_evaluation.hpp"
+
+#include <algorithm>
+
+#include "exactcsg/solid/polygon.hpp"
+
+namespace exactcsg {
+
+using csg::Membership;
+
+void PieceBuffer::add(OrientedPlaneRef outward, signed char corner_sense,
+                      std::span<const Corner> polygon) {
+  pieces.push_back({outward, corner_sense, static_cast<std::uint32_t>(corners.size()),
+                    static_cast<std::uint32_t>(polygon.size())});
+  corners.insert(corners.end(), polygon.begin(), polygon.end());
+}
+
+CellEvaluator::CellEvaluator(const Scene& scene)
+    : scene_(scene),
+      front_(scene.primitives.size(), Membership::Unknown),
+      behind_(scene.primitives.size(), Membership::Unknown) {}
+
+void CellEvaluator::build_local_forms(std::span<const CellFacet> facets) {
+  nodes_.clear();
+  locals_.clear();
+  std::vector<FacetPolygon> polygons;
+  for (std::size_t begin = 0; begin < facets.size();) {
+    std::size_t end = begin;
+    polygons.clear();
+    while (end < facets.size() && facets[end].primitive == facets[begin].primitive) {
+      polygons.push_back(facets[end].polygon);
+      ++end;
+    }
+    const PrimitiveIndex primitive = facets[begin].primitive;
+    const LocalPlace root =
+        scene_.primitives[primitive].convex
+            ? append_convex_form(polygons, nodes_)
+            : append_mesh_form(scene_.geometry, polygons, nodes_, *statistics_);
+    locals_.push_back({primitive, root, begin, end - begin});
+    begin = end;
+  }
+}
+
+void CellEvaluator::order_primitives_for(const CellFacet& facet,
+                                         std::span<const CellFacet> facets) {
+  order_.clear();
+  const auto has_coplanar_facet = [&](const LocalPrimitive& local) {
+    return std::any_of(facets.begin() + static_cast<std::ptrdiff_t>(local.first_facet),
+                       facets.begin() +
+                           static_cast<std::ptrdiff_t>(local.first_facet + local.facet_count),
+                       [&](const CellFacet& other) {
+                         return other.polygon.plane.plane == facet.polygon.plane.plane;
+                       });
+  };
+  for (std::uint32_t i = 0; i < locals_.size(); ++i) {
+    if (locals_[i].primitive != facet.primitive) order_.push_back(i);
+  }
+  const auto rest =
+      std::stable_partition(order_.begin(), order_.end(),
+                            [&](std::uint32_t i) { return has_coplanar_facet(locals_[i]); });
+  coplanar_count_ = static_cast<std::size_t>(rest - order_.begin());
+}
+
+void CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree& tree,
+                             PieceBuffer& result, TierStatistics& statistics) {
+  tree_ = &tree;
+  result_ = &result;
+  statistics_ = &statistics;
+  build_local_forms(facets);
+  for (const CellFacet& facet : facets) {
+    facet_ = &facet;
+    order_primitives_for(facet, facets);
+    const bool outward_front = facet.polygon.plane.sense > 0;
+    front_[facet.primitive] = outward_front ? Membership::Out : Membership::In;
+    behind_[facet.primitive] = outward_front ? Membership::In : Membership::Out;
+    pool_.assign(facet.polygon.corners.begin(), facet.polygon.corners.end());
+    classify({0, pool_.size()}, 0);
+    front_[facet.primitive] = behind_[facet.primitive] = Membership::Unknown;
+  }
+}
+
+Membership CellEvaluator::truth(const std::vector<Membership>& status) {
+  return csg::traverse(
+      *tree_, [&](PrimitiveIndex primitive) { return status[primitive]; },
+      [](Membership a, csg::BooleanOperator op, Membership b) { return csg::combine(a, op, b); },
+      csg::FullEmptyResult{Membership::In, Membership::Out},
+      [](Membership a, csg::BooleanOperator op) { return csg::absorbs(a, op); }, scratch_);
+}
+
+void CellEvaluator::classify(Range piece, std::size_t next) {
+  const Membership front = truth(front_);
+  const Membership behind = truth(behind_);
+  if (front != Membership::Unknown && behind != Membership::Unknown) {
+    if (front == behind) return;
+    // A lower primitive that covers the piece in the same plane would emit it too.
+    if (next >= coplanar_count_) {
+      const signed char outward = behind == Membership::In ? 1 : -1;
+      result_->add({facet_->polygon.plane.plane, outward}, facet_->polygon.plane.sense,
+                   std::span(pool_).subspan(piece.begin, piece.end - piece.begin));
+      return;
+    }
+  }
+  if (next == order_.size()) {
+    throw Error(ErrorId::InternalError, {"a facet that is still undecided", "a decided one"});
+  }
+  const LocalPlace root = locals_[order_[next]].root;
+  descend(piece, root, root, next);
+}
+
+void CellEvaluator::descend(Range piece, LocalPlace front, LocalPlace behind, std::size_t next) {
+  const PlaneRef own = facet_->polygon.plane.plane;
+  while (!front.is_decided() || !behind.is_decided()) {
+    // A node in the facet's own plane divides front from behind, not the piece.
+    if (!front.is_decided() && nodes_[front.node()].plane == own) {
+      front = nodes_[front.node()].positive;
+      continue;
+    }
+    if (!behind.is_decided() && nodes_[behind.node()].plane == own) {
+      behind = nodes_[behind.node()].negative;
+      continue;
+    }
+    const LocalPlace place = front.is_decided() ? behind : front;
+    const LocalNode& node = nodes_[place.node()];
+    const auto follow = [&](LocalPlace at, bool positive) {
+      if (!(at == place)) return at;
+      return positive ? node.positive : node.negative;
+    };
+    const std::size_t count = piece.end - piece.begin;
+    pool_.reserve(pool_.size() + 2 * (count + 2));
+    const auto polygon = std::span<const Corner>(pool_).subspan(piece.begin, count);
+    const PlaneSplit split =
+        split_signs(scene_.geometry, polygon, node.plane, signs_, *statistics_);
+    if (split == PlaneSplit::Both) {
+      const std::size_t positive_begin = pool_.size();
+      append_part(scene_.geometry, polygon, own, node.plane, signs_, Sign::Positive, pool_);
+      const std::size_t negative_begin = pool_.size();
+      append_part(scene_.geometry, polygon, own, node.plane, signs_, Sign::Negative, pool_);
+      const std::size_t end = pool_.size();
+      descend({positive_begin, negative_begin}, follow(front, true), follow(behind, true), next);
+      descend({negative_begin, end}, follow(front, false), follow(behind, false), next);
+      pool_.resize(positive_begin);
+      return;
+    }
+    if (split == PlaneSplit::InPlane) {
+      throw Error(ErrorId::InternalError, {"a facet in a plane that is not its own", ""});
+    }
+    const bool positive = split == PlaneSplit::AllPositive;
+    const LocalPlace next_front = follow(front, positive);
+    behind = follow(behind, positive);
+    front = next_front;
+  }
+  const PrimitiveIndex primitive = locals_[order_[next]].primitive;
+  const bool covered = front.membership() != behind.membership();
+  if (covered && primitive < facet_->primitive) return;
+  front_[primitive] = front.membership();
+  behind_[primitive] = behind.membership();
+  classify(piece, next + 1);
+  front_[primitive] = behind_[primitive] = Membership::Unknown;
+}
+
+}  // namespace exactcsg

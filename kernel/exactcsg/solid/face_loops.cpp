@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/face_loops.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+namespace exactcsg {
+
+namespace {
+
+using Loop = std::vector<std::uint32_t>;
+
+[[noreturn]] void unbalanced() {
+  throw Error(ErrorId::InternalError, {"a face whose boundary is not closed", ""});
+}
+
+// The loop rotated so that it starts at its smallest vertex; where that occurs several times, at the
+// occurrence that makes the loop least.
+void start_at_smallest(Loop& loop) {
+  auto best = std::min_element(loop.begin(), loop.end());
+  const std::uint32_t smallest = *best;
+  const auto rotated_less = [&](Loop::iterator a, Loop::iterator b) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t p = loop[(static_cast<std::size_t>(a - loop.begin()) + i) % loop.size()];
+      const std::uint32_t q = loop[(static_cast<std::size_t>(b - loop.begin()) + i) % loop.size()];
+      if (p != q) return p < q;
+    }
+    return false;
+  };
+  for (auto it = std::next(best); it != loop.end(); ++it) {
+    if (*it == smallest && rotated_less(it, best)) best = it;
+  }
+  std::rotate(loop.begin(), best, loop.end());
+}
+
+class LoopLinker {
+ public:
+  LoopLinker(const Plane& plane, const std::vector<Point3>& vertices, std::span<FaceEdge> edges)
+      : plane_(plane), vertices_(vertices), edges_(edges), used_(edges.size(), false) {
+    std::sort(edges_.begin(), edges_.end(), [](const FaceEdge& a, const FaceEdge& b) {
+      return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+    });
+  }
+
+  std::vector<Loop> link() {
+    std::vector<Loop> loops;
+    for (std::size_t first = 0; first < edges_.size(); ++first) {
+      if (used_[first]) continue;
+      Loop loop;
+      std::size_t edge = first;
+      do {
+        used_[edge] = true;
+        loop.push_back(edges_[edge].from);
+        edge = next(edge);
+      } while (edge != first && !used_[edge]);
+      if (edge != first) unbalanced();
+      start_at_smallest(loop);
+      loops.push_back(std::move(loop));
+    }
+    std::sort(loops.begin(), loops.end());
+    return loops;
+  }
+
+ private:
+  // Of the edges that leave where this one arrives, the first one clockwise from its reverse.
+  std::size_t next(std::size_t edge) const {
+    const std::uint32_t at = edges_[edge].to;
+    const auto first = std::lower_bound(
+        edges_.begin(), edges_.end(), at,
+        [](const FaceEdge& candidate, std::uint32_t vertex) { return candidate.from < vertex; });
+    if (first == edges_.end() || first->from != at) unbalanced();
+    auto best = first;
+    const Vector3 back = vertices_[edges_[edge].from] - vertices_[at];
+    for (auto it = std::next(first); it != edges_.end() && it->from == at; ++it) {
+      if (clockwise_before(back, vertices_[it->to] - vertices_[at],
+                           vertices_[best->to] - vertices_[at])) {
+        best = it;
+      }
+    }
+    return static_cast<std::size_t>(best - edges_.begin());
+  }
+
+  int turn(const Vector3& u, const Vector3& v) const {
+    const Vector3 w = cross(u, v);
+    return sgn(Rational(plane_.a * w.x + plane_.b * w.y + plane_.c * w.z));
+  }
+
+  // 0: less than half a turn clockwise from `back`, 1: half a turn, 2: more, 3: a full turn.
+  int clockwise_quarter(const Vector3& back, const Vector3& v) const {
+    const int side = turn(back, v);
+    if (side < 0) return 0;
+    if (side > 0) return 2;
+    return sgn(dot(back, v)) < 0 ? 1 : 3;
+  }
+
+  bool clockwise_before(const Vector3& back, const Vector3& v, const Vector3& w) const {
+    const int p = clockwise_quarter(back, v);
+    const int q = clockwise_quarter(back, w);
+    if (p != q) return p < q;
+    return turn(v, w) < 0;
+  }
+
+  const Plane& plane_;
+  const std::vector<Point3>& vertices_;
+  std::span<FaceEdge> edges_;
+  std::vector<bool> used_;
+};
+
+}  // namespace
+
+void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, Boundary& boundary) {
+  std::sort(edges.begin(), edges.end(), [](const FaceEdge& a, const FaceEdge& b) {
+    return std::tie(a.plane, a.face) < std::tie(b.plane, b.face);
+  });
+  std::vector<Plane> planes;
+  std::vector<BoundaryFace> faces;
+  for (std::size_t begin = 0; begin < edges.size();) {
+    std::size_t end = begin;
+    while (end < edges.size() && edges[end].plane == edges[begin].plane &&
+           edges[end].face == edges[begin].face) {
+      ++end;
+    }
+    if (begin == 0 || edges[begin].plane != edges[begin - 1].plane) {
+      const Plane stored = geometry.exact_plane_value(edges[begin].plane.plane);
+      planes.push_back(edges[begin].plane.sense > 0 ? stored : opposite(stored));
+    }
+    BoundaryFace face;
+    face.plane = static_cast<std::uint32_t>(planes.size() - 1);
+    face.loops =
+        LoopLinker(planes.back(), boundary.vertices, std::span(edges).subspan(begin, end - begin))
+            .link();
+    faces.push_back(std::move(face));
+    begin = end;
+  }
+  std::vector<std::uint32_t> order(planes.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return compare(planes[a], planes[b]) < 0;
+  });
+  std::vector<std::uint32_t> place(planes.size());
+  boundary.planes.clear();
+  for (const std::uint32_t p : order) {
+    place[p] = static_cast<std::uint32_t>(boundary.planes.size());
+    boundary.planes.push_back(std::move(planes[p]));
+  }
+  for (BoundaryFace& face : faces) face.plane = place[face.plane];
+  std::sort(faces.begin(), faces.end(), [](const BoundaryFace& a, const BoundaryFace& b) {
+    return std::tie(a.plane, a.loops) < std::tie(b.plane, b.loops);
+  });
+  boundary.faces = std::move(faces);
+}
+
+}  // namespace exactcsg

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Directed edges of faces linked to loops, and faces in canonical order. [Exact]
+
+#include <cstdint>
+#include <vector>
+
+#include "exactcsg/number/geometry.hpp"
+#include "exactcsg/solid/boundary.hpp"
+
+namespace exactcsg {
+
+// An edge as a face's boundary walks it: the face on the left, seen from outside.
+struct FaceEdge {
+  OrientedPlaneRef plane;
+  std::uint32_t face = 0;  // any number that edges of one face share
+  std::uint32_t from = 0;  // indices of the boundary's vertices
+  std::uint32_t to = 0;
+};
+
+// Sets boundary.planes and boundary.faces. Where a face touches itself at a vertex, its interior is
+// kept connected on the left of each passage.
+// REQUIRES boundary.vertices and approximate are set.
+// THROWS Error(InternalError) if edges do not balance at some vertex of a face.
+void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, Boundary& boundary);
+
+}  // namespace exactcsg

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Lines given as the meeting lines of two planes, and equal lines found among many. [Exact]
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "exactcsg/number/geometry.hpp"
+
+namespace exactcsg {
+
+// REQUIRES the planes meet in a line, on which the two (different) vertices lie.
+struct LineSample {
+  PlaneRef first;
+  PlaneRef second;  // first < second
+  const Vertex* from = nullptr;
+  const Vertex* to = nullptr;
+};
+
+struct InternedLines {
+  std::vector<std::uint32_t> number;      // of each sample given
+  std::vector<LineSample> distinct;       // by number
+};
+
+// LAW lines.1  number[i] == number[j] iff samples i and j lie on one line.
+// COST: O(n log n) doubles; exact only where certified keys overlap.
+InternedLines intern(const Geometry& geometry, std::span<const LineSample> samples,
+                     TierStatistics& statistics);
+
+// An axis along which positions on the line certainly differ; nullopt where doubles cannot tell.
+std::optional<Axis> axis_along(const Geometry& geometry, const LineSample& line);
+
+}  // namespace exactcsg

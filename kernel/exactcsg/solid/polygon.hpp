@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Convex polygons as runs of corners, and cutting them by planes. Internal to the evaluator. [Exact]
+
+#include <span>
+#include <vector>
+
+#include "exactcsg/solid/scene.hpp"
+
+namespace exactcsg {
+
+// What a plane does to a polygon that does not lie in it.
+enum class PlaneSplit : unsigned char { AllNegative, AllPositive, Both, InPlane };
+
+// The sides of all corners with respect to a plane, into `signs` (resized).
+PlaneSplit split_signs(const Geometry& geometry, std::span<const Corner> polygon, PlaneRef plane,
+                       std::vector<Sign>& signs, TierStatistics& statistics);
+
+// The part of the polygon (lying in `supporting`) on the given side of the plane, appended to
+// `result`. REQUIRES `signs` of split_signs, which said Both. A new corner is the meeting point of
+// the supporting plane, the cut side's plane and the cutting plane.
+void append_part(const Geometry& geometry, std::span<const Corner> polygon, PlaneRef supporting,
+                 PlaneRef plane, std::span<const Sign> signs, Sign kept,
+                 std::vector<Corner>& result);
+
+}  // namespace exactcsg

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+
+#include "exactcsg/number/orientation.hpp"
+#include "exactcsg/solid/polygon.hpp"
+
+namespace exactcsg {
+
+namespace {
+
+constexpr double largest_coordinate = 1e290;
+
+constexpr std::uint64_t directed_edge(std::uint32_t from, std::uint32_t to) {
+  return (static_cast<std::uint64_t>(from) << 32U) | to;
+}
+
+// Of a few well-spread triples of corners the one that spans most: it conditions the plane best.
+std::array<std::uint32_t, 3> spanning_triple(const Polyhedron& polyhedron, const Facet& facet) {
+  const auto count = static_cast<std::uint32_t>(facet.size());
+  if (count == 3) return {facet[0], facet[1], facet[2]};
+  const auto span_of = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    const auto coordinates = [&](std::uint32_t corner) {
+      const Point3& p = polyhedron.vertices[facet[corner]];
+      return std::array{p.x.get_d(), p.y.get_d(), p.z.get_d()};
+    };
+    const auto p = coordinates(i);
+    const auto q = coordinates(j);
+    const auto r = coordinates(k);
+    const double ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
+    const double vx = r[0] - p[0], vy = r[1] - p[1], vz = r[2] - p[2];
+    return std::abs(uy * vz - uz * vy) + std::abs(uz * vx - ux * vz) + std::abs(ux * vy - uy * vx);
+  };
+  std::array<std::uint32_t, 3> best{0, 1, 2};
+  double widest = -1;
+  const std::uint32_t tried = std::min<std::uint32_t>(count, 4);
+  for (std::uint32_t i = 0; i < tried; ++i) {
+    std::array<std::uint32_t, 3> triple{i, (i + count / 3) % count, (i + 2 * count / 3) % count};
+    std::sort(triple.begin(), triple.end());
+    const double span = span_of(triple[0], triple[1], triple[2]);
+    if (span > widest) {
+      widest = span;
+      best = triple;
+    }
+  }
+  // Corners in the middle of straight sides may make every tried triple collinear.
+  if (!(widest > 0)) {
+    for (std::uint32_t k = 2; k < count; ++k) {
+      const Point3& p = polyhedron.vertices[facet[0]];
+      const Point3& q = polyhedron.vertices[facet[1]];
+      const Point3& r = polyhedron.vertices[facet[k]];
+      if (cross(q - p, r - p) != Vector3{}) {
+        best = {0, 1, k};
+        break;
+      }
+    }
+  }
+  return {facet[best[0]], facet[best[1]], facet[best[2]]};
+}
+
+// A plane through the side, not the facet's own: it contains the axis that the facet's normal
+// leans to most.
+Plane plane_across(const Plane& facet, const Point3& p, const Point3& q) {
+  const Integer a = abs(facet.a);
+  const Integer b = abs(facet.b);
+  const Integer c = abs(facet.c);
+  Vector3 axis{0, 0, 1};
+  if (a >= b && a >= c) {
+    axis = {1, 0, 0};
+  } else if (b >= c) {
+    axis = {0, 1, 0};
+  }
+  const Vector3 n = cross(q - p, axis);
+  const Rational offset = -(n.x * p.x + n.y * p.y + n.z * p.z);
+  return make_plane(n.x, n.y, n.z, offset);
+}
+
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(const Solid& solid) {
+    tree_ = csg::flatten(solid,
+                         [this](const Primitive& primitive) { return index_of(primitive); });
+  }
+
+  Scene finish() && {
+    Scene scene{std::move(builder_).build(), std::move(primitives_), {}, {}, std::move(tree_), {}};
+    scene.root = root_cell();
+    scene.facets.reserve(facets_.size());
+    scene.corners.reserve(corner_total_);
+    for (const PendingFacet& facet : facets_) add_facet(scene, facet);
+    return scene;
+  }
+
+ private:
+  struct PendingCorner {
+    PointId point;
+    std::uint32_t side_plane;
+  };
+  struct PendingFacet {
+    PrimitiveIndex primitive;
+    std::uint32_t plane;
+    std::size_t first_corner;
+    std::size_t corner_count;  // 0: a half-space
+  };
+
+  PrimitiveIndex index_of(const Primitive& primitive) {
+    if (const auto* half_space = std::get_if<HalfSpace>(&primitive.shape)) {
+      return add_half_space(*half_space);
+    }
+    const bool convex = std::holds_alternative<ConvexPolytope>(primitive.shape);
+    const Polyhedron* polyhedron = convex
+                                       ? std::get<ConvexPolytope>(primitive.shape).polyhedron.get()
+                                       : std::get<PolyhedralMesh>(primitive.shape).polyhedron.get();
+    const auto [place, is_new] =
+        known_.try_emplace(polyhedron, static_cast<PrimitiveIndex>(primitives_.size()));
+    if (is_new) add_polyhedron(*polyhedron, convex);
+    return place->second;
+  }
+
+  PrimitiveIndex add_half_space(const HalfSpace& half_space) {
+    const auto index = static_cast<PrimitiveIndex>(primitives_.size());
+    primitives_.push_back({true, 1});
+    facets_.push_back({index, builder_.add_plane(half_space.plane), 0, 0});
+    const Plane& plane = half_space.plane;
+    for (const Integer* n : {&plane.a, &plane.b, &plane.c}) {
+      largest_normal_ = std::max(largest_normal_, std::abs(n->get_d()));
+    }
+    largest_offset_ = std::max(largest_offset_, std::abs(plane.d.get_d()));
+    has_half_spaces_ = true;
+    return index;
+  }
+
+  void add_polyhedron(const Polyhedron& polyhedron, bool convex) {
+    const auto index = static_cast<PrimitiveIndex>(primitives_.size());
+    primitives_.push_back({convex, static_cast<std::uint32_t>(polyhedron.facets.size())});
+    std::vector<PointId> points;
+    points.reserve(polyhedron.vertices.size());
+    for (const Point3& vertex : polyhedron.vertices) {
+      points.push_back(builder_.add_point(vertex));
+      extend_bounds(vertex);
+    }
+    std::vector<std::uint32_t> planes;
+    planes.reserve(polyhedron.facets.size());
+    std::unordered_map<std::uint64_t, std::uint32_t> facet_of_edge;
+    facet_of_edge.reserve(polyhedron.facets.size() * 4);
+    for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
+      const Facet& facet = polyhedron.facets[f];
+      const auto [a, b, c] = spanning_triple(polyhedron, facet);
+      const std::uint32_t plane = builder_.add_plane(points[a], points[b], points[c]);
+      planes.push_back(plane);
+      for (std::size_t i = 0; i < facet.size(); ++i) {
+        builder_.add_incidence(points[facet[i]], plane);
+        facet_of_edge.emplace(directed_edge(facet[i], facet[(i + 1) % facet.size()]), f);
+      }
+    }
+    for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
+      const Facet& facet = polyhedron.facets[f];
+      facets_.push_back({index, planes[f], corners_.size(), facet.size()});
+      corner_total_ += facet.size();
+      for (std::size_t i = 0; i < facet.size(); ++i) {
+        const std::uint32_t from = facet[i];
+        const std::uint32_t to = facet[(i + 1) % facet.size()];
+        const auto neighbour = facet_of_edge.find(directed_edge(to, from));
+        if (neighbour == facet_of_edge.end()) {
+          throw Error(ErrorId::InternalError, {"a primitive that is not closed", "a closed one"});
+        }
+        const bool flat = !convex && coplanar(polyhedron, facet, polyhedron.facets[neighbour->second]);
+        corners_.push_back({points[from], flat ? plane_across_side(polyhedron, facet, i)
+                                               : planes[neighbour->second]});
+      }
+    }
+  }
+
+  static bool coplanar(const Polyhedron& polyhedron, const Facet& facet, const Facet& other) {
+    const auto [a, b, c] = spanning_triple(polyhedron, facet);
+    return std::all_of(other.begin(), other.end(), [&](std::uint32_t corner) {
+      return orientation(polyhedron.vertices[a], polyhedron.vertices[b], polyhedron.vertices[c],
+                         polyhedron.vertices[corner]) == Sign::Zero;
+    });
+  }
+
+  std::uint32_t plane_across_side(const Polyhedron& polyhedron, const Facet& facet, std::size_t i) {
+    const auto [a, b, c] = spanning_triple(polyhedron, facet);
+    const Plane own =
+        plane_through(polyhedron.vertices[a], polyhedron.vertices[b], polyhedron.vertices[c]);
+    return builder_.add_plane(plane_across(own, polyhedron.vertices[facet[i]],
+                                           polyhedron.vertices[facet[(i + 1) % facet.size()]]));
+  }
+
+  void extend_bounds(const Point3& point) {
+    const std::array<double, 3> coordinates{point.x.get_d(), point.y.get_d(), point.z.get_d()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double value = coordinates[axis];
+      if (!(std::abs(value) <= largest_coordinate)) {
+        throw Error(ErrorId::NumberOutOfRange, {"a coordinate beyond 1e290", ""});
+      }
+      lower_[axis] = std::min(lower_[axis], value);
+      upper_[axis] = std::max(upper_[axis], value);
+    }
+  }
+
+  // Every vertex of a bounded solid is a point of a bounded primitive or the meeting point of three
+  // half-spaces' planes; by Cramer's rule its coordinates are quotients of integers, at most
+  // 6 N^2 D in magnitude for normals up to N and offsets up to D.
+  Cell root_cell() const {
+    Cell cell;
+    double reach = 0;
+    if (has_half_spaces_) {
+      reach = 8 * (6 * largest_normal_ * largest_normal_ * (largest_offset_ + 1) + 1);
+      if (!(reach <= largest_coordinate)) {
+        throw Error(ErrorId::NumberOutOfRange, {"half-spaces that may meet beyond 1e290", ""});
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool bounded = lower_[axis] <= upper_[axis];
+      const double lower = std::min(bounded ? lower_[axis] : 0.0, -reach);
+      const double upper = std::max(bounded ? upper_[axis] : 0.0, reach);
+      const double margin =
+          std::max({(upper - lower) * 0.015625, std::abs(lower) * 0x1p-20,
+                    std::abs(upper) * 0x1p-20, std::numeric_limits<double>::min() * 0x1p60});
+      cell.lower[axis] = round_wall_position(lower - margin);
+      cell.upper[axis] = round_wall_position(upper + margin);
+    }
+    return cell;
+  }
+
+  void add_facet(Scene& scene, const PendingFacet& pending) const {
+    SceneFacet facet{pending.primitive, scene.geometry.plane(pending.plane),
+                     static_cast<std::uint32_t>(scene.corners.size()), 0};
+    if (pending.corner_count == 0) {
+      append_half_space_polygon(scene, facet.plane);
+    } else {
+      for (std::size_t i = 0; i < pending.corner_count; ++i) {
+        const PendingCorner& corner = corners_[pending.first_corner + i];
+        scene.corners.push_back({scene.geometry.vertex(corner.point),
+                                 scene.geometry.plane(corner.side_plane).plane});
+      }
+    }
+    facet.corner_count = static_cast<std::uint32_t>(scene.corners.size()) - facet.first_corner;
+    scene.facets.push_back(facet);
+  }
+
+  // The plane clipped to the root cell: a parallelogram between the walls of the two axes that the
+  // normal leans to least, cut by the walls of the third.
+  static void append_half_space_polygon(Scene& scene, OrientedPlaneRef outward) {
+    const Geometry& geometry = scene.geometry;
+    const PlaneRef plane = outward.plane;
+    const Geometry::ApproximatePlane near = geometry.approximate(plane);
+    const std::array<double, 3> normal{near.a, near.b, near.c};
+    const auto steepest = static_cast<std::size_t>(
+        std::max_element(normal.begin(), normal.end(),
+                         [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+        normal.begin());
+    std::size_t u = (steepest + 1) % 3;
+    std::size_t v = (steepest + 2) % 3;
+    // Counter-clockwise seen from outside.
+    if (normal[steepest] * outward.sense < 0) std::swap(u, v);
+    const auto wall = [&](std::size_t axis, bool upper) {
+      return PlaneRef::of_wall(static_cast<Axis>(axis),
+                               upper ? scene.root.upper[axis] : scene.root.lower[axis]);
+    };
+    std::vector<Corner> polygon{
+        {geometry.meet(plane, wall(u, false), wall(v, false)), wall(v, false)},
+        {geometry.meet(plane, wall(u, true), wall(v, false)), wall(u, true)},
+        {geometry.meet(plane, wall(u, true), wall(v, true)), wall(v, true)},
+        {geometry.meet(plane, wall(u, false), wall(v, true)), wall(u, false)}};
+    std::vector<Corner> kept;
+    std::vector<Sign> signs;
+    TierStatistics statistics;
+    for (const bool upper : {false, true}) {
+      const Sign inside = upper ? Sign::Negative : Sign::Positive;
+      if (split_signs(geometry, polygon, wall(steepest, upper), signs, statistics) ==
+          PlaneSplit::Both) {
+        kept.clear();
+        append_part(geometry, polygon, plane, wall(steepest, upper), signs, inside, kept);
+        polygon.swap(kept);
+      }
+    }
+    scene.corners.insert(scene.corners.end(), polygon.begin(), polygon.end());
+  }
+
+  Geometry::Builder builder_;
+  std::vector<ScenePrimitive> primitives_;
+  std::vector<PendingFacet> facets_;
+  std::vector<PendingCorner> corners_;
+  std::size_t corner_total_ = 0;
+  std::unordered_map<const Polyhedron*, PrimitiveIndex> known_;
+  std::array<double, 3> lower_{std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::infinity()};
+  std::array<double, 3> upper_{-std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity()};
+  double largest_normal_ = 0;
+  double largest_offset_ = 0;
+  bool has_half_spaces_ = false;
+  PrunedTree tree_;
+};
+
+}  // namespace
+
+Scene make_scene(const Solid& solid) { return SceneBuilder(solid).finish(); }
+
+}  // namespace exactcsg
