@@ -9,6 +9,7 @@
 #include "exactcsg/solid/box_pairs.hpp"
 #include "exactcsg/solid/face_loops.hpp"
 #include "exactcsg/solid/line_interning.hpp"
+#include "exactcsg/solid/nearest_crossing.hpp"
 #include "exactcsg/solid/vertex_interning.hpp"
 
 namespace exactcsg {
@@ -415,17 +416,6 @@ class Merger {
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
     for (const LineNumber line : changed) sort_along(line, content_[line].stations);
-  }
-
-  static DoubleBox box_of(const Vertex& v) {
-    DoubleBox box{};
-    const std::array<double, 3> position{v.x, v.y, v.z};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double slack = v.error + 0x1p-51 * std::abs(position[i]);
-      box.lower[i] = position[i] - slack;
-      box.upper[i] = position[i] + slack;
-    }
-    return box;
   }
 
   // The sides of a span's ends with respect to a plane.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include "exactcsg/solid/polygon.hpp"
 
 namespace exactcsg {
@@ -68,8 +70,22 @@ bool single_primitive(const PrunedTree& tree) {
 
 }  // namespace
 
-// What both children of one division share while they are made. Scratch memory is kept per thread:
-// a division allocates only what its children keep.
+// Indexed by primitive; reset after use.
+struct Decomposition::Scratch {
+  explicit Scratch(std::size_t primitives)
+      : status(primitives, Membership::Unknown), in_tree(primitives, 0) {}
+  std::vector<Membership> status;
+  std::vector<unsigned char> in_tree;
+  csg::PruneScratch<PrunedTree> prune;
+};
+
+struct Decomposition::ScratchPerThread : tbb::enumerable_thread_specific<Scratch> {
+  using enumerable_thread_specific::enumerable_thread_specific;
+};
+
+Decomposition::~Decomposition() = default;
+
+// What both children of one division share while they are made.
 class Decomposition::Divider {
  public:
   Divider(const Decomposition& decomposition, CellTask& task, const Division& division)
@@ -77,7 +93,7 @@ class Decomposition::Divider {
         scene_(decomposition.scene_),
         task_(task),
         division_(division),
-        scratch_(scratch_for(scene_)) {}
+        scratch_(decomposition.scratch_->local()) {}
 
   std::vector<CellTask> divide() {
     std::vector<CellTask> children(2);
@@ -94,22 +110,6 @@ class Decomposition::Divider {
   }
 
  private:
-  struct Scratch {
-    std::vector<Membership> status;
-    std::vector<unsigned char> in_tree;
-    csg::PruneScratch<PrunedTree> prune;
-  };
-
-  // Indexed by primitive; reset after use, so that its size alone ties it to a scene.
-  static Scratch& scratch_for(const Scene& scene) {
-    thread_local Scratch scratch;
-    if (scratch.status.size() < scene.primitives.size()) {
-      scratch.status.assign(scene.primitives.size(), Membership::Unknown);
-      scratch.in_tree.assign(scene.primitives.size(), 0);
-    }
-    return scratch;
-  }
-
   void make_child(CellTask& child, WallSide which) {
     const auto axis = static_cast<std::size_t>(division_.axis);
     child.cell = task_.cell;
@@ -228,7 +228,10 @@ class Decomposition::Divider {
 };
 
 Decomposition::Decomposition(const Scene& scene, std::size_t facets_per_cell, Progress* progress)
-    : scene_(scene), facets_per_cell_(facets_per_cell), progress_(progress) {}
+    : scene_(scene),
+      facets_per_cell_(facets_per_cell),
+      progress_(progress),
+      scratch_(std::make_unique<ScratchPerThread>(scene.primitives.size())) {}
 
 std::span<const Corner> Decomposition::corners_of(const CellTask& task,
                                                   const ClippedFacet& facet) const {

@@ -10,6 +10,7 @@
 // scene's tree does.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -49,6 +50,7 @@ struct Division {
 class Decomposition {
  public:
   Decomposition(const Scene& scene, std::size_t facets_per_cell, Progress* progress);
+  ~Decomposition();
 
   CellTask root() const;
   // The tree is constant, or a single primitive, or the facets are few, or dividing is of no use.
@@ -64,10 +66,14 @@ class Decomposition {
 
  private:
   class Divider;
+  struct Scratch;
+  struct ScratchPerThread;
 
   const Scene& scene_;
   std::size_t facets_per_cell_;
   Progress* progress_;
+  // Memory of its own for every thread: a division allocates only what its children keep.
+  std::unique_ptr<ScratchPerThread> scratch_;
 };
 
 }  // namespace exactcsg

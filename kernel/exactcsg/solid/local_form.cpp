@@ -2,10 +2,9 @@
 #include "exactcsg/solid/local_form.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <optional>
 
+#include "exactcsg/solid/nearest_crossing.hpp"
 #include "exactcsg/solid/polygon.hpp"
 
 namespace exactcsg {
@@ -119,127 +118,6 @@ class Autopartition {
   std::vector<Sign> signs_;
 };
 
-struct Crossing {
-  Rational parameter;
-  Membership membership;
-};
-
-Rational evaluate(const Plane& plane, const Point3& point) {
-  return plane.a * point.x + plane.b * point.y + plane.c * point.z + plane.d;
-}
-
-Rational slope(const Plane& plane, const Vector3& direction) {
-  return plane.a * direction.x + plane.b * direction.y + plane.c * direction.z;
-}
-
-enum class Inside : unsigned char { No, Yes, OnSide };
-
-// Whether a point of the polygon's plane is inside it: strictly on the side of every side plane that
-// the corners are on.
-Inside point_in_polygon(const Geometry& geometry, const Point3& point,
-                        std::span<const Corner> corners) {
-  TierStatistics statistics;
-  bool on_side = false;
-  for (const Corner& corner : corners) {
-    const Sign here = side(geometry.exact_plane_value(corner.side_plane), point);
-    if (here == Sign::Zero) {
-      on_side = true;
-      continue;
-    }
-    for (const Corner& other : corners) {
-      const Sign inner = geometry.side(other.vertex, corner.side_plane, statistics);
-      if (inner == Sign::Zero) continue;
-      if (inner != here) return Inside::No;
-      break;
-    }
-  }
-  return on_side ? Inside::OnSide : Inside::Yes;
-}
-
-struct Bounds {
-  std::array<double, 3> lower;
-  std::array<double, 3> upper;
-};
-
-Bounds bounds_of(std::span<const Corner> corners) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  for (const Corner& corner : corners) {
-    const std::array<double, 3> position{corner.vertex.x, corner.vertex.y, corner.vertex.z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      bounds.lower[axis] = std::min(bounds.lower[axis], position[axis] - corner.vertex.error);
-      bounds.upper[axis] = std::max(bounds.upper[axis], position[axis] + corner.vertex.error);
-    }
-  }
-  return bounds;
-}
-
-// A point near the polygon's middle; each attempt gives another.
-std::array<double, 3> aim(std::span<const Corner> corners, std::size_t attempt) {
-  std::array<double, 3> target{};
-  double total = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const double weight = 1.0 + 0.37 * static_cast<double>((i * 7 + attempt * 5) % 11);
-    target[0] += weight * corners[i].vertex.x;
-    target[1] += weight * corners[i].vertex.y;
-    target[2] += weight * corners[i].vertex.z;
-    total += weight;
-  }
-  for (double& coordinate : target) coordinate /= total;
-  return target;
-}
-
-// nullopt: the line meets a side or a corner, or misses everything.
-std::optional<Membership> nearest_crossing(const Geometry& geometry, const Point3& point,
-                                           std::span<const FacetPolygon> facets,
-                                           std::span<const Bounds> bounds,
-                                           const std::array<double, 3>& target) {
-  const Point3 aimed{rational_of(target[0]), rational_of(target[1]), rational_of(target[2])};
-  // Beyond the target nothing matters as long as the target is behind the first crossing; going a
-  // little further makes sure of that although the target is rounded.
-  const Vector3 direction = Rational(9, 8) * (aimed - point);
-  std::array<double, 3> lower{};
-  std::array<double, 3> upper{};
-  const Point3 end = point + direction;
-  const std::array from{point.x.get_d(), point.y.get_d(), point.z.get_d()};
-  const std::array to{end.x.get_d(), end.y.get_d(), end.z.get_d()};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double slack = 1e-12 * (std::abs(from[axis]) + std::abs(to[axis])) + 1e-290;
-    lower[axis] = std::min(from[axis], to[axis]) - slack;
-    upper[axis] = std::max(from[axis], to[axis]) + slack;
-  }
-  std::optional<Crossing> nearest;
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    bool apart = false;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      apart |= bounds[f].lower[axis] > upper[axis] || bounds[f].upper[axis] < lower[axis];
-    }
-    if (apart) continue;
-    const Plane plane = geometry.exact_plane_value(facets[f].plane.plane);
-    const Rational height = evaluate(plane, point);
-    const Rational rate = slope(plane, direction);
-    if (sgn(rate) == 0) {
-      if (sgn(height) == 0) return std::nullopt;
-      continue;
-    }
-    Rational parameter = -height / rate;
-    if (sgn(parameter) <= 0 || parameter > 1) continue;
-    if (nearest && nearest->parameter < parameter) continue;
-    switch (point_in_polygon(geometry, point + parameter * direction, facets[f].corners)) {
-      case Inside::OnSide:
-        return std::nullopt;
-      case Inside::No:
-        continue;
-      case Inside::Yes:
-        break;
-    }
-    const bool outside = sgn(height) * facets[f].plane.sense > 0;
-    nearest = Crossing{std::move(parameter), outside ? Membership::Out : Membership::In};
-  }
-  if (!nearest) return std::nullopt;
-  return nearest->membership;
-}
-
 }  // namespace
 
 LocalPlace append_convex_form(std::span<const FacetPolygon> facets, std::vector<LocalNode>& nodes) {
@@ -265,19 +143,19 @@ LocalPlace append_mesh_form(const Geometry& geometry, std::span<const FacetPolyg
 
 Membership mesh_membership(const Geometry& geometry, const Point3& point,
                            std::span<const FacetPolygon> facets) {
-  std::vector<Bounds> bounds;
-  bounds.reserve(facets.size());
-  for (const FacetPolygon& facet : facets) bounds.push_back(bounds_of(facet.corners));
-  constexpr std::size_t rounds = 8;
-  for (std::size_t attempt = 0; attempt < rounds; ++attempt) {
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-      const auto target = aim(facets[f].corners, attempt);
-      if (const auto found = nearest_crossing(geometry, point, facets, bounds, target)) {
-        return *found;
-      }
+  const auto corners_of = [&](std::size_t f) {
+    std::vector<Point3> corners;
+    for (const Corner& corner : facets[f].corners) {
+      corners.push_back(geometry.exact_point(corner.vertex));
     }
-  }
-  throw Error(ErrorId::InternalError, {"no segment that crosses the mesh in general position", ""});
+    return corners;
+  };
+  const auto bounds_of = [&](std::size_t f) {
+    DoubleBox box = box_of(facets[f].corners.front().vertex);
+    for (const Corner& corner : facets[f].corners) box = join(box, box_of(corner.vertex));
+    return box;
+  };
+  return nearest_crossing(point, facets.size(), bounds_of, corners_of);
 }
 
 }  // namespace exactcsg

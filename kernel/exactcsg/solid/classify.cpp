@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/classify.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "exactcsg/csg/traverse.hpp"
+#include "exactcsg/number/orientation.hpp"
+#include "exactcsg/solid/local_form.hpp"
+#include "exactcsg/solid/nearest_crossing.hpp"
+#include "exactcsg/solid/neighbourhood.hpp"
+
+namespace exactcsg {
+
+namespace {
+
+using csg::Membership;
+
+// A plane through the point and which side of it leads where, as in a local form.
+struct ConeNode {
+  std::size_t plane = 0;  // index into the planes through the point
+  LocalPlace positive = LocalPlace::decided(Membership::Out);
+  LocalPlace negative = LocalPlace::decided(Membership::Out);
+};
+
+// A primitive near the point: In or Out all around, or the cone that it looks like there.
+struct NearPoint {
+  Membership membership = Membership::Unknown;
+  LocalPlace root = LocalPlace::decided(Membership::Out);
+  std::vector<ConeNode> nodes;
+};
+
+class SinglePoint {
+ public:
+  explicit SinglePoint(const Point3& point) : point_(point) {}
+
+  PointClass classify(const Solid& solid) {
+    const auto combine = [](Membership a, csg::BooleanOperator op, Membership b) {
+      return csg::combine(a, op, b);
+    };
+    const auto absorbs = [](Membership a, csg::BooleanOperator op) { return csg::absorbs(a, op); };
+    const csg::FullEmptyResult special{Membership::In, Membership::Out};
+    const Membership around = csg::traverse(
+        solid, [&](const Primitive& primitive) { return near_point(primitive).membership; },
+        combine, special, absorbs);
+    if (around == Membership::In) return PointClass::In;
+    if (around == Membership::Out) return PointClass::Out;
+    return classify_neighbourhood(planes_, [&](std::span<const Sign> sides) {
+      return csg::traverse(
+          solid,
+          [&](const Primitive& primitive) { return walk(near_point(primitive), sides); }, combine,
+          special, absorbs);
+    });
+  }
+
+ private:
+  static Membership walk(const NearPoint& near, std::span<const Sign> sides) {
+    if (near.membership != Membership::Unknown) return near.membership;
+    LocalPlace place = near.root;
+    while (!place.is_decided()) {
+      const ConeNode& node = near.nodes[place.node()];
+      place = sides[node.plane] == Sign::Positive ? node.positive : node.negative;
+    }
+    return place.membership();
+  }
+
+  // Each primitive is looked at once, however often it occurs.
+  const NearPoint& near_point(const Primitive& primitive) {
+    if (const auto* half_space = std::get_if<HalfSpace>(&primitive.shape)) {
+      return remember(&primitive, [&] { return near_half_space(*half_space); });
+    }
+    if (const auto* polytope = std::get_if<ConvexPolytope>(&primitive.shape)) {
+      return remember(polytope->polyhedron.get(),
+                      [&] { return near_polytope(*polytope->polyhedron); });
+    }
+    const auto& mesh = std::get<PolyhedralMesh>(primitive.shape);
+    return remember(mesh.polyhedron.get(), [&] { return near_mesh(primitive, *mesh.polyhedron); });
+  }
+
+  template <class Look>
+  const NearPoint& remember(const void* key, Look look) {
+    const auto [place, is_new] = known_.try_emplace(key);
+    if (is_new) place->second = look();
+    return place->second;
+  }
+
+  // The number of the plane among those through the point; `sense` is how it is turned there.
+  std::size_t number_of(const Plane& plane, int& sense) {
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+      if (planes_[i] == plane) {
+        sense = 1;
+        return i;
+      }
+      if (planes_[i] == opposite(plane)) {
+        sense = -1;
+        return i;
+      }
+    }
+    planes_.push_back(plane);
+    sense = 1;
+    return planes_.size() - 1;
+  }
+
+  ConeNode cone_node(const Plane& outward, LocalPlace outside, LocalPlace inside) {
+    int sense = 1;
+    const std::size_t number = number_of(outward, sense);
+    return sense > 0 ? ConeNode{number, outside, inside} : ConeNode{number, inside, outside};
+  }
+
+  NearPoint cone(const std::vector<Plane>& outward_planes) {
+    NearPoint near;
+    if (outward_planes.empty()) {
+      near.membership = Membership::In;
+      return near;
+    }
+    near.root = LocalPlace::at_node(0);
+    for (std::size_t i = 0; i < outward_planes.size(); ++i) {
+      const LocalPlace inside = i + 1 == outward_planes.size()
+                                    ? LocalPlace::decided(Membership::In)
+                                    : LocalPlace::at_node(static_cast<std::uint32_t>(i + 1));
+      near.nodes.push_back(
+          cone_node(outward_planes[i], LocalPlace::decided(Membership::Out), inside));
+    }
+    return near;
+  }
+
+  NearPoint near_half_space(const HalfSpace& half_space) {
+    switch (side(half_space.plane, point_)) {
+      case Sign::Positive:
+        return {Membership::Out, LocalPlace::decided(Membership::Out), {}};
+      case Sign::Negative:
+        return {Membership::In, LocalPlace::decided(Membership::In), {}};
+      case Sign::Zero:
+        break;
+    }
+    return cone({half_space.plane});
+  }
+
+  static Plane plane_of(const Polyhedron& polyhedron, const Facet& facet) {
+    for (std::size_t k = 2; k < facet.size(); ++k) {
+      const Point3& p = polyhedron.vertices[facet[0]];
+      const Point3& q = polyhedron.vertices[facet[k - 1]];
+      const Point3& r = polyhedron.vertices[facet[k]];
+      if (cross(q - p, r - p) != Vector3{}) return plane_through(p, q, r);
+    }
+    throw Error(ErrorId::InternalError, {"a facet without area", ""});
+  }
+
+  // Zero also for a triple of collinear corners: then the exact plane is asked.
+  Sign side_of_facet(const Polyhedron& polyhedron, const Facet& facet) const {
+    const Sign sign =
+        orientation(polyhedron.vertices[facet[0]], polyhedron.vertices[facet[1]],
+                    polyhedron.vertices[facet[2]], point_);
+    if (sign != Sign::Zero || facet.size() == 3) return sign;
+    return side(plane_of(polyhedron, facet), point_);
+  }
+
+  NearPoint near_polytope(const Polyhedron& polyhedron) {
+    std::vector<Plane> through;
+    for (const Facet& facet : polyhedron.facets) {
+      const Sign side = side_of_facet(polyhedron, facet);
+      if (side == Sign::Positive) {
+        return {Membership::Out, LocalPlace::decided(Membership::Out), {}};
+      }
+      if (side == Sign::Zero) through.push_back(plane_of(polyhedron, facet));
+    }
+    return cone(through);
+  }
+
+  bool holds_point(const Polyhedron& polyhedron, const Facet& facet) const {
+    if (side_of_facet(polyhedron, facet) != Sign::Zero) return false;
+    const Plane plane = plane_of(polyhedron, facet);
+    const Vector3 normal{plane.a, plane.b, plane.c};
+    for (std::size_t i = 0; i < facet.size(); ++i) {
+      const Point3& from = polyhedron.vertices[facet[i]];
+      const Point3& to = polyhedron.vertices[facet[(i + 1) % facet.size()]];
+      if (sgn(dot(cross(to - from, point_ - from), normal)) < 0) return false;
+    }
+    return true;
+  }
+
+  NearPoint near_mesh(const Primitive& primitive, const Polyhedron& polyhedron) {
+    std::vector<std::size_t> holding;
+    for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
+      if (holds_point(polyhedron, polyhedron.facets[f])) holding.push_back(f);
+    }
+    const auto corners_of = [&](std::size_t f) {
+      std::vector<Point3> corners;
+      for (const std::uint32_t v : polyhedron.facets[f]) corners.push_back(polyhedron.vertices[v]);
+      return corners;
+    };
+    if (holding.empty()) {
+      const auto bounds_of = [&](std::size_t f) {
+        DoubleBox box = box_of(polyhedron.vertices[polyhedron.facets[f][0]]);
+        for (const std::uint32_t v : polyhedron.facets[f]) {
+          box = join(box, box_of(polyhedron.vertices[v]));
+        }
+        return box;
+      };
+      const Membership membership =
+          nearest_crossing(point_, polyhedron.facets.size(), bounds_of, corners_of);
+      return {membership, LocalPlace::decided(membership), {}};
+    }
+    return mesh_cone(primitive, holding);
+  }
+
+  // The facets that hold the point all have planes through it, so their partition does as well.
+  NearPoint mesh_cone(const Primitive& primitive, const std::vector<std::size_t>& holding) {
+    const Scene scene = make_scene(Solid::primitive(primitive));
+    std::vector<FacetPolygon> polygons;
+    for (const std::size_t f : holding) {
+      const SceneFacet& facet = scene.facets[f];
+      polygons.push_back({facet.plane, std::span(scene.corners)
+                                           .subspan(facet.first_corner, facet.corner_count)});
+    }
+    std::vector<LocalNode> nodes;
+    TierStatistics statistics;
+    NearPoint near;
+    near.root = append_mesh_form(scene.geometry, polygons, nodes, statistics);
+    for (const LocalNode& node : nodes) {
+      near.nodes.push_back(
+          cone_node(scene.geometry.exact_plane_value(node.plane), node.positive, node.negative));
+    }
+    return near;
+  }
+
+  const Point3& point_;
+  std::vector<Plane> planes_;  // through the point, pairwise different
+  std::unordered_map<const void*, NearPoint> known_;
+};
+
+}  // namespace
+
+PointClass classify(const Solid& solid, const Point3& point) {
+  return SinglePoint(point).classify(solid);
+}
+
+}  // namespace exactcsg

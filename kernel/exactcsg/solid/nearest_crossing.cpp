@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/nearest_crossing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace exactcsg {
+
+namespace {
+
+using csg::Membership;
+
+DoubleBox box_around(const std::array<double, 3>& position, double error) {
+  DoubleBox box{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // Widened by units in the last place, for the rounding of this very sum.
+    const double slack = error + 0x1p-51 * std::abs(position[i]) + 0x1p-1000;
+    box.lower[i] = position[i] - slack;
+    box.upper[i] = position[i] + slack;
+  }
+  return box;
+}
+
+enum class Inside : unsigned char { No, Yes, OnSide };
+
+Inside point_in_facet(const Point3& point, const std::vector<Point3>& corners,
+                      const Vector3& normal) {
+  bool on_side = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point3& from = corners[i];
+    const Point3& to = corners[i + 1 == corners.size() ? 0 : i + 1];
+    const int turn = sgn(dot(cross(to - from, point - from), normal));
+    if (turn < 0) return Inside::No;
+    on_side |= turn == 0;
+  }
+  return on_side ? Inside::OnSide : Inside::Yes;
+}
+
+Vector3 normal_of(const std::vector<Point3>& corners) {
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    Vector3 normal = cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
+    if (normal != Vector3{}) return normal;
+  }
+  throw Error(ErrorId::InternalError, {"a facet without area", ""});
+}
+
+// A point near the middle of a facet; each attempt gives another.
+Point3 aim(const std::vector<Point3>& corners, std::size_t attempt) {
+  std::array<double, 3> target{};
+  double total = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double weight = 1.0 + 0.37 * static_cast<double>((i * 7 + attempt * 5) % 11);
+    target[0] += weight * corners[i].x.get_d();
+    target[1] += weight * corners[i].y.get_d();
+    target[2] += weight * corners[i].z.get_d();
+    total += weight;
+  }
+  return {rational_of(target[0] / total), rational_of(target[1] / total),
+          rational_of(target[2] / total)};
+}
+
+struct Crossing {
+  Rational parameter;
+  Membership before;  // where the segment comes from
+};
+
+}  // namespace
+
+DoubleBox box_of(const Vertex& vertex) {
+  return box_around({vertex.x, vertex.y, vertex.z}, vertex.error);
+}
+
+DoubleBox box_of(const Point3& point) {
+  return box_around({point.x.get_d(), point.y.get_d(), point.z.get_d()}, 0);
+}
+
+Membership nearest_crossing(const Point3& point, std::size_t facet_count,
+                            const std::function<DoubleBox(std::size_t)>& bounds_of,
+                            const std::function<std::vector<Point3>(std::size_t)>& corners_of) {
+  constexpr std::size_t rounds = 8;
+  for (std::size_t attempt = 0; attempt < rounds * facet_count; ++attempt) {
+    // Beyond the target nothing matters if the target is behind the first crossing; going on a
+    // little makes sure of that although the target is rounded.
+    const Point3 target = aim(corners_of(attempt % facet_count), attempt / facet_count);
+    const Vector3 direction = Rational(9, 8) * (target - point);
+    const DoubleBox reach = join(box_of(point), box_of(point + direction));
+    std::optional<Crossing> nearest;
+    bool degenerate = false;
+    for (std::size_t f = 0; f < facet_count && !degenerate; ++f) {
+      if (!meet(bounds_of(f), reach)) continue;
+      const std::vector<Point3> corners = corners_of(f);
+      const Vector3 normal = normal_of(corners);
+      const Rational height = dot(normal, point - corners[0]);
+      const Rational rate = dot(normal, direction);
+      if (sgn(rate) == 0) {
+        degenerate = sgn(height) == 0;
+        continue;
+      }
+      Rational parameter = -height / rate;
+      if (sgn(parameter) <= 0 || parameter > 1) continue;
+      if (nearest && nearest->parameter < parameter) continue;
+      const Inside inside = point_in_facet(point + parameter * direction, corners, normal);
+      degenerate = inside == Inside::OnSide;
+      if (inside == Inside::Yes) {
+        nearest = Crossing{std::move(parameter), sgn(height) > 0 ? Membership::Out : Membership::In};
+      }
+    }
+    if (nearest && !degenerate) return nearest->before;
+  }
+  throw Error(ErrorId::InternalError, {"no segment that crosses the mesh in general position", ""});
+}
+
+}  // namespace exactcsg
