@@ -3,9 +3,9 @@
 
 // A real number as a double and a bound on how far it is off. [Certified]
 //
-// LAW certified.1  if the true operands are within the errors of the stored ones, the true result is
-// within the error of the stored result. Overflow gives an infinite or NaN error, which no comparison
-// `value > error` accepts.
+// LAW certified.1  if the true operands are within the errors of the stored ones, the true result
+// is within the error of the stored result. Overflow gives an infinite or NaN error, which no
+// comparison `value > error` accepts.
 
 #include <cmath>
 
@@ -20,8 +20,8 @@ struct CertifiedDouble {
 };
 
 // Each operation's own rounding is at most u |result| (u = 2^-53) plus half the least subnormal;
-// the error terms themselves are rounded, a relative 2^-52 each: doubling u and adding 2^-1000 covers
-// both.
+// the error terms themselves are rounded, a relative 2^-52 each: doubling u and adding 2^-1000
+// covers both.
 inline CertifiedDouble operator+(CertifiedDouble a, CertifiedDouble b) {
   const double sum = a.value + b.value;
   return {sum, (a.error + b.error) * (1 + 0x1p-51) + 0x1p-52 * std::abs(sum)};

@@ -33,7 +33,8 @@ Sign orientation(const Point3& a, const Point3& b, const Point3& c, const Point3
   std::array<double, 3> v{};
   std::array<double, 3> w{};
   for (std::size_t i = 0; i < 3; ++i) {
-    for (const double x : {pa[i], pb[i], pc[i], pd[i]}) magnitude = std::max(magnitude, std::abs(x));
+    for (const double x : {pa[i], pb[i], pc[i], pd[i]})
+      magnitude = std::max(magnitude, std::abs(x));
     u[i] = pb[i] - pa[i];
     v[i] = pc[i] - pa[i];
     w[i] = pd[i] - pa[i];

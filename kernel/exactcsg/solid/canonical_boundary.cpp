@@ -350,8 +350,8 @@ class Merger {
     return result;
   }
 
-  // visit(segment, from, to) for the segments of each oriented plane, joined where they continue one
-  // another and cut at vertices.
+  // visit(segment, from, to) for the segments of each oriented plane, joined where they continue
+  // one another and cut at vertices.
   template <class Visit>
   void for_each_run(LineNumber line, Visit visit) {
     const LineContent& content = content_[line];
@@ -372,7 +372,7 @@ class Merger {
   // The segments of one plane are ascending along the line and do not overlap.
   template <class Visit>
   void run_along(const LineContent& content, std::size_t begin, std::size_t end, Visit& visit) {
-    std::optional<std::uint32_t> start;  // rank where the present run began
+    std::uint32_t start = none;  // rank where the present run began
     bool forward = true;
     const Segment* owner = nullptr;
     for (std::size_t s = begin; s < end; ++s) {
@@ -380,24 +380,25 @@ class Merger {
       const auto [low, high] = std::minmax(rank_[segment.from], rank_[segment.to]);
       const bool goes_forward = rank_[segment.from] < rank_[segment.to];
       if (is_vertex_[content.stations[low]]) {
-        if (start) broken("an edge that does not end at its vertex");
+        if (start != none) broken("an edge that does not end at its vertex");
         start = low;
         forward = goes_forward;
         owner = &segment;
       }
-      if (!start || forward != goes_forward) broken("an edge that ends where there is no vertex");
+      if (start == none || forward != goes_forward)
+        broken("an edge that ends where there is no vertex");
       for (std::uint32_t r = low + 1; r <= high; ++r) {
         if (!is_vertex_[content.stations[r]]) continue;
-        const VertexNumber a = content.stations[*start];
+        const VertexNumber a = content.stations[start];
         const VertexNumber b = content.stations[r];
         visit(*owner, forward ? a : b, forward ? b : a);
         start = r;
         owner = &segment;
       }
       // Ends in a vertex: the run is over unless the next segment goes on from here.
-      if (*start == high) start.reset();
+      if (start == high) start = none;
     }
-    if (start) broken("an edge that ends where there is no vertex");
+    if (start != none) broken("an edge that ends where there is no vertex");
   }
 
   // Edges that only touch: a vertex on another edge, or two edges that cross.
@@ -409,9 +410,8 @@ class Merger {
       boxes.push_back(join(box_of(vertices_[span.from]), box_of(vertices_[span.to])));
     }
     std::vector<LineNumber> changed;
-    BoxHierarchy(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-      touch(all[i], all[j], changed);
-    });
+    BoxHierarchy(boxes).for_each_pair(
+        [&](std::uint32_t i, std::uint32_t j) { touch(all[i], all[j], changed); });
     if (changed.empty()) return;
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
@@ -445,7 +445,8 @@ class Merger {
       const auto side = sides(b, plane);
       if (side[0] == side[1] && side[0] != Sign::Zero) return;
     }
-    // The point of a's line in the crossing plane; it is on b's line iff in b's other plane as well.
+    // The point of a's line in the crossing plane; it is on b's line iff in b's other plane as
+    // well.
     VertexNumber number = none;
     Vertex point;
     if (crossing_sides[0] == Sign::Zero) {
@@ -475,10 +476,10 @@ class Merger {
 
   // Points of the line only; both ends included.
   bool within(const Vertex& point, const Span& span) {
-    const auto low = geometry_.compare_position(vertices_[span.from], vertices_[span.to],
-                                                statistics_) < 0
-                         ? span.from
-                         : span.to;
+    const auto low =
+        geometry_.compare_position(vertices_[span.from], vertices_[span.to], statistics_) < 0
+            ? span.from
+            : span.to;
     const VertexNumber high = low == span.from ? span.to : span.from;
     return geometry_.compare_position(vertices_[low], point, statistics_) <= 0 &&
            geometry_.compare_position(point, vertices_[high], statistics_) <= 0;
@@ -490,9 +491,8 @@ class Merger {
       touch_index_built_ = true;
       by_x_.resize(vertices_.size());
       std::iota(by_x_.begin(), by_x_.end(), 0U);
-      std::sort(by_x_.begin(), by_x_.end(), [&](VertexNumber a, VertexNumber b) {
-        return vertices_[a].x < vertices_[b].x;
-      });
+      std::sort(by_x_.begin(), by_x_.end(),
+                [&](VertexNumber a, VertexNumber b) { return vertices_[a].x < vertices_[b].x; });
       for (const Vertex& v : vertices_) widest_error_ = std::max(widest_error_, v.error);
     }
     const double reach = 2 * (point.error + widest_error_) + 0x1p-50 * std::abs(point.x);

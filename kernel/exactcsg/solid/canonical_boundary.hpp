@@ -21,9 +21,9 @@
 
 namespace exactcsg {
 
-// REQUIRES the pieces are what cell evaluation emits for one bounded solid: closed, and disjoint but
-// for their rims. THROWS Error(InternalError) where they are not.
-// The statistics of the result hold what merging itself counted.
+// REQUIRES the pieces are what cell evaluation emits for one bounded solid: closed, and disjoint
+// but for their rims. THROWS Error(InternalError) where they are not. The statistics of the result
+// hold what merging itself counted.
 Boundary merge_pieces(const Geometry& geometry, const std::vector<PieceBuffer>& buffers,
                       Progress* progress);
 

@@ -33,10 +33,9 @@ void CellEvaluator::build_local_forms(std::span<const CellFacet> facets) {
       ++end;
     }
     const PrimitiveIndex primitive = facets[begin].primitive;
-    const LocalPlace root =
-        scene_.primitives[primitive].convex
-            ? append_convex_form(polygons, nodes_)
-            : append_mesh_form(scene_.geometry, polygons, nodes_, *statistics_);
+    const LocalPlace root = scene_.primitives[primitive].convex
+                                ? append_convex_form(polygons, nodes_)
+                                : append_mesh_form(scene_.geometry, polygons, nodes_, *statistics_);
     locals_.push_back({primitive, root, begin, end - begin});
     begin = end;
   }
@@ -46,19 +45,19 @@ void CellEvaluator::order_primitives_for(const CellFacet& facet,
                                          std::span<const CellFacet> facets) {
   order_.clear();
   const auto has_coplanar_facet = [&](const LocalPrimitive& local) {
-    return std::any_of(facets.begin() + static_cast<std::ptrdiff_t>(local.first_facet),
-                       facets.begin() +
-                           static_cast<std::ptrdiff_t>(local.first_facet + local.facet_count),
-                       [&](const CellFacet& other) {
-                         return other.polygon.plane.plane == facet.polygon.plane.plane;
-                       });
+    return std::any_of(
+        facets.begin() + static_cast<std::ptrdiff_t>(local.first_facet),
+        facets.begin() + static_cast<std::ptrdiff_t>(local.first_facet + local.facet_count),
+        [&](const CellFacet& other) {
+          return other.polygon.plane.plane == facet.polygon.plane.plane;
+        });
   };
   for (std::uint32_t i = 0; i < locals_.size(); ++i) {
     if (locals_[i].primitive != facet.primitive) order_.push_back(i);
   }
-  const auto rest =
-      std::stable_partition(order_.begin(), order_.end(),
-                            [&](std::uint32_t i) { return has_coplanar_facet(locals_[i]); });
+  const auto rest = std::stable_partition(order_.begin(), order_.end(), [&](std::uint32_t i) {
+    return has_coplanar_facet(locals_[i]);
+  });
   coplanar_count_ = static_cast<std::size_t>(rest - order_.begin());
 }
 

@@ -3,9 +3,9 @@
 
 // Two-sided classification of the facets of one cell. [Exact]
 //
-// Of every facet polygon we carry what every primitive of the cell is in front and behind, and cut it
-// by the other primitives' local forms until the pruned tree is constant on both sides. Equal: no
-// boundary. Different: boundary, turned by the side that is In. A piece that facets of several
+// Of every facet polygon we carry what every primitive of the cell is in front and behind, and cut
+// it by the other primitives' local forms until the pruned tree is constant on both sides. Equal:
+// no boundary. Different: boundary, turned by the side that is In. A piece that facets of several
 // primitives cover is emitted by the lowest of them only.
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 namespace exactcsg {
 
 struct BoundaryPiece {
-  OrientedPlaneRef plane;          // outward normal of the solid
-  signed char corner_sense = 1;    // corners are counter-clockwise about the stored normal if +1
+  OrientedPlaneRef plane;        // outward normal of the solid
+  signed char corner_sense = 1;  // corners are counter-clockwise about the stored normal if +1
   std::uint32_t first_corner = 0;
   std::uint32_t corner_count = 0;
 };

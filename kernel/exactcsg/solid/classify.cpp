@@ -47,9 +47,8 @@ class SinglePoint {
     if (around == Membership::Out) return PointClass::Out;
     return classify_neighbourhood(planes_, [&](std::span<const Sign> sides) {
       return csg::traverse(
-          solid,
-          [&](const Primitive& primitive) { return walk(near_point(primitive), sides); }, combine,
-          special, absorbs);
+          solid, [&](const Primitive& primitive) { return walk(near_point(primitive), sides); },
+          combine, special, absorbs);
     });
   }
 
@@ -148,9 +147,8 @@ class SinglePoint {
 
   // Zero also for a triple of collinear corners: then the exact plane is asked.
   Sign side_of_facet(const Polyhedron& polyhedron, const Facet& facet) const {
-    const Sign sign =
-        orientation(polyhedron.vertices[facet[0]], polyhedron.vertices[facet[1]],
-                    polyhedron.vertices[facet[2]], point_);
+    const Sign sign = orientation(polyhedron.vertices[facet[0]], polyhedron.vertices[facet[1]],
+                                  polyhedron.vertices[facet[2]], point_);
     if (sign != Sign::Zero || facet.size() == 3) return sign;
     return side(plane_of(polyhedron, facet), point_);
   }
@@ -210,8 +208,8 @@ class SinglePoint {
     std::vector<FacetPolygon> polygons;
     for (const std::size_t f : holding) {
       const SceneFacet& facet = scene.facets[f];
-      polygons.push_back({facet.plane, std::span(scene.corners)
-                                           .subspan(facet.first_corner, facet.corner_count)});
+      polygons.push_back(
+          {facet.plane, std::span(scene.corners).subspan(facet.first_corner, facet.corner_count)});
     }
     std::vector<LocalNode> nodes;
     TierStatistics statistics;

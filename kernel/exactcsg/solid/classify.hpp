@@ -4,8 +4,8 @@
 // Point membership classification with exact neighbourhoods. [Exact]
 //
 // In: a ball round the point lies in the solid. Out: a ball round it lies in the complement.
-// On: neither. Where several surfaces pass through the point, the cells that their planes cut from a
-// small sphere are enumerated, each with an exact witness direction (Tilove; Requicha): pairwise
+// On: neither. Where several surfaces pass through the point, the cells that their planes cut from
+// a small sphere are enumerated, each with an exact witness direction (Tilove; Requicha): pairwise
 // On/On tables are wrong.
 
 #include <memory>
@@ -20,7 +20,8 @@ namespace exactcsg {
 enum class PointClass : unsigned char { Out, On, In };
 
 // One point, without building anything: a traversal of the tree.
-// COST: O(facets) filtered signs; neighbourhoods only of the primitives whose boundary has the point.
+// COST: O(facets) filtered signs; neighbourhoods only of the primitives whose boundary has the
+// point.
 PointClass classify(const Solid& solid, const Point3& point);
 
 // For many points: a retained decomposition (a gdt::Tree whose leaves hold the pruned tree and the
@@ -40,8 +41,8 @@ class PointClassifier {
   std::unique_ptr<const Data> data_;
 };
 
-// A point in exactly one of the two solids (In one and Out of the other), or nullopt if they are the
-// same point set. Decides by canonical boundaries: LAW equal.1  nullopt iff the digests agree.
+// A point in exactly one of the two solids (In one and Out of the other), or nullopt if they are
+// the same point set. Decides by canonical boundaries: LAW equal.1  nullopt iff the digests agree.
 struct Difference {
   Point3 witness;
   bool in_first = false;

@@ -142,8 +142,8 @@ class Decomposition::Divider {
     }
   }
 
-  // A primitive none of whose facets reaches the child is Full or Empty there: an inner point of the
-  // child decides.
+  // A primitive none of whose facets reaches the child is Full or Empty there: an inner point of
+  // the child decides.
   void settle_lost_primitives(const Cell& cell, WallSide which) {
     inner_point_.reset();
     for (std::size_t begin = 0; begin < task_.facets.size();) {
@@ -199,8 +199,7 @@ class Decomposition::Divider {
     added.first_corner = static_cast<std::uint32_t>(child.corners.size());
     if (cut) {
       const PlaneRef wall = PlaneRef::of_wall(division_.axis, division_.position);
-      TierStatistics& statistics =
-          which == WallSide::Below ? below_statistics_ : task_.statistics;
+      TierStatistics& statistics = which == WallSide::Below ? below_statistics_ : task_.statistics;
       // The signs are needed again; the filter makes them cheap.
       ClippedFacet unbounded = facet;
       unbounded.lower.fill(-std::numeric_limits<double>::infinity());
@@ -271,8 +270,8 @@ bool Decomposition::is_leaf(const CellTask& task) const {
 namespace {
 
 // The predicted work of the two children; straddling facets count in both.
-double predicted_cost(const std::vector<ClippedFacet>& facets, std::size_t stride,
-                      std::size_t axis, double position) {
+double predicted_cost(const std::vector<ClippedFacet>& facets, std::size_t stride, std::size_t axis,
+                      double position) {
   std::size_t below = 0;
   std::size_t above = 0;
   for (std::size_t i = 0; i < facets.size(); i += stride) {
@@ -307,7 +306,8 @@ std::optional<Division> Decomposition::choose_division(const CellTask& task) con
   std::vector<double> middles;
   std::vector<Sign> signs;
   TierStatistics unused;
-  for (const double fraction : {0.4609375, 0.55859375, 0.3671875, 0.640625, 0.28515625, 0.7109375}) {
+  for (const double fraction :
+       {0.4609375, 0.55859375, 0.3671875, 0.640625, 0.28515625, 0.7109375}) {
     std::optional<Division> best;
     double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -335,11 +335,12 @@ std::optional<Division> Decomposition::choose_division(const CellTask& task) con
       }
     }
     if (!best) return std::nullopt;
-    const bool in_wall = std::any_of(
-        task.facets.begin(), task.facets.end(), [&](const ClippedFacet& facet) {
+    const bool in_wall =
+        std::any_of(task.facets.begin(), task.facets.end(), [&](const ClippedFacet& facet) {
           const auto axis = static_cast<std::size_t>(best->axis);
           // A facet in the wall is as thin as its certified errors.
-          if (facet.upper[axis] < best->position || facet.lower[axis] > best->position) return false;
+          if (facet.upper[axis] < best->position || facet.lower[axis] > best->position)
+            return false;
           return wall_side(scene_.geometry, facet, corners_of(task, facet), *best, signs, unused) ==
                  WallSide::Within;
         });

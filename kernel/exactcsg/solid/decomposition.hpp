@@ -4,10 +4,10 @@
 // The recursive decomposition of space that the evaluator and the point classifier share: what a
 // task is, when it is small enough, how it is divided. [Exact]
 //
-// LAW decomposition.1  in a task, the facets are exactly those parts of the scene's facets that meet
-// the open cell and belong to a primitive of the tree; a primitive of the tree has at least one.
-// LAW decomposition.2  for every point of the open cell, the tree of the task classifies it as the
-// scene's tree does.
+// LAW decomposition.1  in a task, the facets are exactly those parts of the scene's facets that
+// meet the open cell and belong to a primitive of the tree; a primitive of the tree has at least
+// one. LAW decomposition.2  for every point of the open cell, the tree of the task classifies it as
+// the scene's tree does.
 
 #include <cstdint>
 #include <memory>
@@ -22,7 +22,8 @@
 
 namespace exactcsg {
 
-// A facet of the scene, whole or clipped to a cell, with bounds that its true corners do not exceed.
+// A facet of the scene, whole or clipped to a cell, with bounds that its true corners do not
+// exceed.
 struct ClippedFacet {
   FacetIndex facet = 0;
   std::uint32_t first_corner = 0;

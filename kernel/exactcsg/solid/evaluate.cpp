@@ -89,7 +89,8 @@ class Evaluation {
  private:
   EvaluationTask prepared(CellTask cell) const {
     EvaluationTask task{std::move(cell), std::nullopt};
-    if (!decomposition_.is_leaf(task.cell)) task.division = decomposition_.choose_division(task.cell);
+    if (!decomposition_.is_leaf(task.cell))
+      task.division = decomposition_.choose_division(task.cell);
     return task;
   }
 

@@ -8,8 +8,8 @@
 // classification: every facet is cut by the other primitives' planes until the pruned tree is
 // constant in front and behind; different means boundary. Coincident faces need no tolerance.
 //
-// Source: DESIGN section 4; local form of convex sets (docs/architecture.md); pruning after the Bath
-// modellers; divacon after Davy and Dew, section 3.1.
+// Source: DESIGN section 4; local form of convex sets (docs/architecture.md); pruning after the
+// Bath modellers; divacon after Davy and Dew, section 3.1.
 
 #include <cstddef>
 
@@ -20,9 +20,9 @@
 namespace exactcsg {
 
 struct EvaluateOptions {
-  unsigned threads = 1;            // 1: sequential executor; 0: as many as the machine has
+  unsigned threads = 1;              // 1: sequential executor; 0: as many as the machine has
   std::size_t facets_per_cell = 24;  // cells with at most so many facets are evaluated
-  Progress* progress = nullptr;    // advanced and asked for cancellation, if given
+  Progress* progress = nullptr;      // advanced and asked for cancellation, if given
 };
 
 // LAW evaluate.1  the result is boundary.1's canonical boundary of the regularised set.

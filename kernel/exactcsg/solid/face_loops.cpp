@@ -7,6 +7,8 @@
 #include <span>
 #include <tuple>
 
+#include "exactcsg/support/error.hpp"
+
 namespace exactcsg {
 
 namespace {
@@ -17,8 +19,8 @@ using Loop = std::vector<std::uint32_t>;
   throw Error(ErrorId::InternalError, {"a face whose boundary is not closed", ""});
 }
 
-// The loop rotated so that it starts at its smallest vertex; where that occurs several times, at the
-// occurrence that makes the loop least.
+// The loop rotated so that it starts at its smallest vertex; where that occurs several times, at
+// the occurrence that makes the loop least.
 void start_at_smallest(Loop& loop) {
   auto best = std::min_element(loop.begin(), loop.end());
   const std::uint32_t smallest = *best;
@@ -137,9 +139,8 @@ void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, Boundary&
   }
   std::vector<std::uint32_t> order(planes.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return compare(planes[a], planes[b]) < 0;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return compare(planes[a], planes[b]) < 0; });
   std::vector<std::uint32_t> place(planes.size());
   boundary.planes.clear();
   for (const std::uint32_t p : order) {

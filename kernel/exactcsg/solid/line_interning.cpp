@@ -44,13 +44,11 @@ KeyInterval key_of(const Geometry& geometry, const LineSample& sample, std::uint
   const auto times = [](double factor, CertifiedDouble x) {
     return CertifiedDouble{factor, 0} * x;
   };
-  const CertifiedDouble u =
-      times(0.7390851332151607, d[0]) + times(0.5671432904097838, d[1]) +
-      times(0.3819660112501051, d[2]);
-  const CertifiedDouble v =
-      times(0.9159655941772190, m[0]) + times(0.6434105462883380, m[1]) +
-      times(0.2614972128476428, m[2]) + times(0.4749493799879206, d[0]) -
-      times(0.6180339887498949, d[1]) + times(0.8346268416740732, d[2]);
+  const CertifiedDouble u = times(0.7390851332151607, d[0]) + times(0.5671432904097838, d[1]) +
+                            times(0.3819660112501051, d[2]);
+  const CertifiedDouble v = times(0.9159655941772190, m[0]) + times(0.6434105462883380, m[1]) +
+                            times(0.2614972128476428, m[2]) + times(0.4749493799879206, d[0]) -
+                            times(0.6180339887498949, d[1]) + times(0.8346268416740732, d[2]);
   const CertifiedDouble key = u * v / squared;
   return {key.lower(), key.upper(), item};
 }
@@ -80,11 +78,11 @@ InternedLines intern(const Geometry& geometry, std::span<const LineSample> sampl
   for_each_cluster(keys, [&](std::span<const KeyInterval> cluster) {
     const std::size_t first = result.distinct.size();
     for (const KeyInterval& key : cluster) {
-      const auto known = std::find_if(
-          result.distinct.begin() + static_cast<std::ptrdiff_t>(first), result.distinct.end(),
-          [&](const LineSample& line) {
-            return lies_on(geometry, samples[key.item], line, statistics);
-          });
+      const auto known =
+          std::find_if(result.distinct.begin() + static_cast<std::ptrdiff_t>(first),
+                       result.distinct.end(), [&](const LineSample& line) {
+                         return lies_on(geometry, samples[key.item], line, statistics);
+                       });
       result.number[key.item] = static_cast<std::uint32_t>(known - result.distinct.begin());
       if (known == result.distinct.end()) result.distinct.push_back(samples[key.item]);
     }

@@ -21,8 +21,8 @@ struct LineSample {
 };
 
 struct InternedLines {
-  std::vector<std::uint32_t> number;      // of each sample given
-  std::vector<LineSample> distinct;       // by number
+  std::vector<std::uint32_t> number;  // of each sample given
+  std::vector<LineSample> distinct;   // by number
 };
 
 // LAW lines.1  number[i] == number[j] iff samples i and j lie on one line.

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "exactcsg/support/error.hpp"
+
 namespace exactcsg {
 
 namespace {
@@ -105,7 +107,8 @@ Membership nearest_crossing(const Point3& point, std::size_t facet_count,
       const Inside inside = point_in_facet(point + parameter * direction, corners, normal);
       degenerate = inside == Inside::OnSide;
       if (inside == Inside::Yes) {
-        nearest = Crossing{std::move(parameter), sgn(height) > 0 ? Membership::Out : Membership::In};
+        nearest =
+            Crossing{std::move(parameter), sgn(height) > 0 ? Membership::Out : Membership::In};
       }
     }
     if (nearest && !degenerate) return nearest->before;

@@ -21,9 +21,8 @@ DoubleBox box_of(const Point3& point);
 // that holds facet f, corners_of(f) its corners, counter-clockwise from outside.
 // Segments from the point towards facets are tried until one meets neither a side nor a corner; its
 // nearest crossing decides. REQUIRES facet_count > 0
-csg::Membership nearest_crossing(
-    const Point3& point, std::size_t facet_count,
-    const std::function<DoubleBox(std::size_t)>& bounds_of,
-    const std::function<std::vector<Point3>(std::size_t)>& corners_of);
+csg::Membership nearest_crossing(const Point3& point, std::size_t facet_count,
+                                 const std::function<DoubleBox(std::size_t)>& bounds_of,
+                                 const std::function<std::vector<Point3>(std::size_t)>& corners_of);
 
 }  // namespace exactcsg

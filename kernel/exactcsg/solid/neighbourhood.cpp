@@ -21,7 +21,6 @@ Sign side(const IntegerVector& u, const IntegerVector& v) {
   return sign_of(Integer(u.x * v.x + u.y * v.y + u.z * v.z));
 }
 
-
 class Neighbourhood {
  public:
   Neighbourhood(std::span<const Plane> planes,
@@ -72,7 +71,7 @@ class Neighbourhood {
         for (const Sign direction : {Sign::Positive, Sign::Negative}) {
           for (const Sign leave : {Sign::Positive, Sign::Negative}) {
             for (std::size_t m = 0; m < normals_.size(); ++m) {
-              sides_[m] = along_[m] != Sign::Zero  ? along_[m] * end
+              sides_[m] = along_[m] != Sign::Zero ? along_[m] * end
                           : turn[m] != Sign::Zero ? turn[m] * direction
                                                   : off[m] * leave;
             }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Convex polygons as runs of corners, and cutting them by planes. Internal to the evaluator. [Exact]
+// Convex polygons as runs of corners, and cutting them by planes. Internal to the evaluator.
+// [Exact]
 
 #include <span>
 #include <vector>

@@ -83,8 +83,7 @@ Plane plane_across(const Plane& facet, const Point3& p, const Point3& q) {
 class SceneBuilder {
  public:
   explicit SceneBuilder(const Solid& solid) {
-    tree_ = csg::flatten(solid,
-                         [this](const Primitive& primitive) { return index_of(primitive); });
+    tree_ = csg::flatten(solid, [this](const Primitive& primitive) { return index_of(primitive); });
   }
 
   Scene finish() && {
@@ -169,7 +168,8 @@ class SceneBuilder {
         if (neighbour == facet_of_edge.end()) {
           throw Error(ErrorId::InternalError, {"a primitive that is not closed", "a closed one"});
         }
-        const bool flat = !convex && coplanar(polyhedron, facet, polyhedron.facets[neighbour->second]);
+        const bool flat =
+            !convex && coplanar(polyhedron, facet, polyhedron.facets[neighbour->second]);
         corners_.push_back({points[from], flat ? plane_across_side(polyhedron, facet, i)
                                                : planes[neighbour->second]});
       }
@@ -237,8 +237,8 @@ class SceneBuilder {
     } else {
       for (std::size_t i = 0; i < pending.corner_count; ++i) {
         const PendingCorner& corner = corners_[pending.first_corner + i];
-        scene.corners.push_back({scene.geometry.vertex(corner.point),
-                                 scene.geometry.plane(corner.side_plane).plane});
+        scene.corners.push_back(
+            {scene.geometry.vertex(corner.point), scene.geometry.plane(corner.side_plane).plane});
       }
     }
     facet.corner_count = static_cast<std::uint32_t>(scene.corners.size()) - facet.first_corner;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/solid.hpp"
+
+#include <array>
+#include <unordered_map>
+
+#include "exactcsg/support/error.hpp"
+
+namespace exactcsg {
+
+namespace {
+
+const Polyhedron* polyhedron_of(const PrimitiveShape& shape) {
+  if (const auto* polytope = std::get_if<ConvexPolytope>(&shape)) return polytope->polyhedron.get();
+  if (const auto* mesh = std::get_if<PolyhedralMesh>(&shape)) return mesh->polyhedron.get();
+  return nullptr;
+}
+
+}  // namespace
+
+Solid apply(const AffineMap& map, const Solid& solid) {
+  if (determinant(map) == 0) {
+    throw Error(ErrorId::SingularMap, {"a matrix of determinant 0", "an invertible matrix"});
+  }
+  if (map == AffineMap::identity()) return solid;
+  // Different nodes may hold the same polyhedron: keep it one. A table for each kind of shape.
+  std::array<std::unordered_map<const Polyhedron*, PrimitiveShape>,
+             std::variant_size_v<PrimitiveShape>>
+      images;
+  return csg::map(solid, [&](const Primitive& primitive) {
+    const Polyhedron* polyhedron = polyhedron_of(primitive.shape);
+    if (polyhedron == nullptr) return apply(map, primitive);
+    auto& known = images[primitive.shape.index()];
+    const auto found = known.find(polyhedron);
+    if (found != known.end()) return Primitive{found->second, primitive.origin};
+    Primitive image = apply(map, primitive);
+    known.emplace(polyhedron, image.shape);
+    return image;
+  });
+}
+
+}  // namespace exactcsg
