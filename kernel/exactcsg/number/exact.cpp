@@ -92,6 +92,59 @@ std::optional<Rational> parse_fraction(std::string_view numerator, std::string_v
 
 std::size_t bit_length(const Integer& value) { return mpz_sizeinbase(value.get_mpz_t(), 2); }
 
+// mantissa * 2^-shift, the mantissa of 63 or 64 bits. Where bits were cut off, the last bit is one:
+// it lies below every position at which a double is rounded (round to odd).
+struct Leading {
+  std::uint64_t mantissa;
+  long shift;
+};
+
+// |numerator| * 2^-shift. REQUIRES numerator != 0
+Leading leading_bits(const Integer& numerator, long shift) {
+  const mp_limb_t* limbs = mpz_limbs_read(numerator.get_mpz_t());
+  const std::size_t size = mpz_size(numerator.get_mpz_t());
+  const int zeros = std::countl_zero(static_cast<std::uint64_t>(limbs[size - 1]));
+  std::uint64_t mantissa = limbs[size - 1] << zeros;
+  if (zeros != 0 && size > 1) mantissa |= limbs[size - 2] >> (64 - zeros);
+  const long cut = static_cast<long>(bit_length(numerator)) - 64;
+  if (cut > 0 && static_cast<long>(mpz_scan1(numerator.get_mpz_t(), 0)) < cut) mantissa |= 1U;
+  return {mantissa, shift - cut};
+}
+
+// |numerator| / denominator, whose bit lengths differ by e.
+Leading leading_bits(const Integer& numerator, const Integer& denominator, long e) {
+  const long shift = 63 - e;
+  Integer scaled = abs(numerator);
+  Integer divisor = denominator;
+  if (shift >= 0) {
+    scaled <<= static_cast<unsigned long>(shift);
+  } else {
+    divisor <<= static_cast<unsigned long>(-shift);
+  }
+  Integer quotient;
+  Integer remainder;
+  mpz_tdiv_qr(quotient.get_mpz_t(), remainder.get_mpz_t(), scaled.get_mpz_t(), divisor.get_mpz_t());
+  return {mpz_getlimbn(quotient.get_mpz_t(), 0) | (remainder != 0 ? 1U : 0U), shift};
+}
+
+// The double nearest to the number, ties to even.
+double rounded(const Leading& leading) {
+  // A double of this size keeps 53 bits, and none below 2^-1074.
+  const int length = static_cast<int>(std::bit_width(leading.mantissa));
+  const long dropped = std::max<long>(length - 53, leading.shift - 1074);
+  std::uint64_t kept = 0;
+  if (dropped < 64) {
+    kept = leading.mantissa >> dropped;
+    const std::uint64_t rest = leading.mantissa & ((std::uint64_t{1} << dropped) - 1U);
+    const std::uint64_t half = std::uint64_t{1} << (dropped - 1);
+    if (rest > half || (rest == half && (kept & 1U) != 0)) ++kept;
+  } else if (dropped == 64) {
+    // All of it lies below the last place; more than half of that place rounds up.
+    kept = leading.mantissa > (std::uint64_t{1} << 63U) ? 1 : 0;
+  }
+  return std::ldexp(static_cast<double>(kept), static_cast<int>(dropped - leading.shift));
+}
+
 }  // namespace
 
 std::optional<Rational> parse_rational(std::string_view text) {
@@ -143,35 +196,10 @@ double nearest_double(const Rational& value) {
   const long e = numerator_bits - denominator_bits;
   if (e > 1025) return sgn(numerator) * std::numeric_limits<double>::infinity();
   if (e < -1080) return std::copysign(0.0, sgn(numerator));
-  // quotient = floor(|value| * 2^shift) has 63 or 64 bits; a remainder is remembered in its last
-  // bit, which lies below every rounding position (round to odd).
-  const long shift = 63 - e;
-  Integer scaled = abs(numerator);
-  Integer divisor = denominator;
-  if (shift >= 0) {
-    scaled <<= static_cast<unsigned long>(shift);
-  } else {
-    divisor <<= static_cast<unsigned long>(-shift);
-  }
-  Integer quotient;
-  Integer remainder;
-  mpz_tdiv_qr(quotient.get_mpz_t(), remainder.get_mpz_t(), scaled.get_mpz_t(), divisor.get_mpz_t());
-  std::uint64_t mantissa = mpz_getlimbn(quotient.get_mpz_t(), 0);
-  if (remainder != 0) mantissa |= 1U;
-  // The lowest bit that a double of this size keeps: 53 bits, or 2^-1074 if that is more.
-  const int length = static_cast<int>(std::bit_width(mantissa));
-  const int dropped = static_cast<int>(std::max<long>(length - 53, shift - 1074));
-  std::uint64_t kept = 0;
-  if (dropped < 64) {
-    kept = mantissa >> dropped;
-    const std::uint64_t rest = mantissa & ((std::uint64_t{1} << dropped) - 1U);
-    const std::uint64_t half = std::uint64_t{1} << (dropped - 1);
-    if (rest > half || (rest == half && (kept & 1U) != 0)) ++kept;
-  } else if (dropped == 64) {
-    // All of it lies below the last place; more than half of it rounds up.
-    kept = mantissa > (std::uint64_t{1} << 63) ? 1 : 0;
-  }
-  const double magnitude = std::ldexp(static_cast<double>(kept), static_cast<int>(dropped - shift));
+  const bool power_of_two = mpz_scan1(denominator.get_mpz_t(), 0) + 1 == bit_length(denominator);
+  const Leading leading = power_of_two ? leading_bits(numerator, denominator_bits - 1)
+                                       : leading_bits(numerator, denominator, e);
+  const double magnitude = rounded(leading);
   return sgn(numerator) < 0 ? -magnitude : magnitude;
 }
 

@@ -117,6 +117,12 @@ class Geometry {
   // The sign of n.v + d with the stored normal n.
   // LAW predicate.1  equals side(exact_plane_value(plane), exact_point(v)).
   Sign side(const Vertex& v, PlaneRef plane, TierStatistics& statistics) const {
+    // A meeting point lies on its own planes. (Of points the incidences are looked up later: they
+    // cost more than the filter.)
+    if (!v.is_point && (v.planes[0] == plane || v.planes[1] == plane || v.planes[2] == plane)) {
+      statistics.record(Tier::Symbolic, true);
+      return Sign::Zero;
+    }
     const double value = filtered_side(v, plane);
     if (value == 0) return side_beyond_filter(v, plane, statistics);
     statistics.record(Tier::Double, false);

@@ -10,7 +10,7 @@ namespace {
 
 struct Incidence {
   PointId point;
-  std::uint32_t plane;  // as added, later the index of the table
+  std::uint32_t plane;  // as added
 };
 
 }  // namespace
@@ -23,33 +23,50 @@ struct Geometry::Builder::State {
 
 namespace {
 
-// Sorts incidences into the rows of a table by point, each row ascending and without repetition.
-void fill_incidences(const std::vector<Incidence>& incidences, Geometry::Data& data) {
-  std::vector<std::uint32_t>& begin = data.incident_begin;
-  std::vector<std::uint32_t>& planes = data.incident_planes;
-  begin.assign(data.points.size() + 1, 0);
-  for (const Incidence& i : incidences) ++begin[static_cast<std::size_t>(i.point) + 1];
+struct Entry {
+  std::uint32_t row;
+  std::uint32_t value;
+};
+
+// Each row ascending and without repetition.
+SparseTable table_of(const std::vector<Entry>& entries, std::size_t rows) {
+  SparseTable table;
+  std::vector<std::uint32_t>& begin = table.begin;
+  std::vector<std::uint32_t>& values = table.values;
+  begin.assign(rows + 1, 0);
+  for (const Entry& entry : entries) ++begin[entry.row + 1];
   for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  planes.resize(incidences.size());
+  values.resize(entries.size());
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (const Incidence& i : incidences) {
-    planes[next[static_cast<std::size_t>(i.point)]++] = data.of_added[i.plane].plane.table_index();
-  }
+  for (const Entry& entry : entries) values[next[entry.row]++] = entry.value;
   // Rows only become shorter: they are moved to the front in place.
   std::uint32_t written = 0;
   std::uint32_t row_begin = 0;
-  for (std::size_t point = 0; point + 1 < begin.size(); ++point) {
-    const std::uint32_t row_end = begin[point + 1];
-    const auto first = planes.begin() + row_begin;
-    std::sort(first, planes.begin() + row_end);
-    const auto last = std::unique(first, planes.begin() + row_end);
-    const auto out = std::copy(first, last, planes.begin() + written);
-    begin[point] = written;
-    written = static_cast<std::uint32_t>(out - planes.begin());
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::uint32_t row_end = begin[row + 1];
+    const auto first = values.begin() + row_begin;
+    std::sort(first, values.begin() + row_end);
+    const auto last = std::unique(first, values.begin() + row_end);
+    const auto out = std::copy(first, last, values.begin() + written);
+    begin[row] = written;
+    written = static_cast<std::uint32_t>(out - values.begin());
     row_begin = row_end;
   }
   begin.back() = written;
-  planes.resize(written);
+  values.resize(written);
+  return table;
+}
+
+void fill_incidences(const std::vector<Incidence>& incidences, Geometry::Data& data) {
+  std::vector<Entry> entries;
+  entries.reserve(incidences.size());
+  for (const Incidence& i : incidences) {
+    entries.push_back(
+        {static_cast<std::uint32_t>(i.point), data.of_added[i.plane].plane.table_index()});
+  }
+  data.planes_of_points = table_of(entries, data.points.size());
+  for (Entry& entry : entries) std::swap(entry.row, entry.value);
+  data.points_of_planes = table_of(entries, data.planes.size());
 }
 
 }  // namespace

@@ -14,20 +14,26 @@
 
 namespace exactcsg {
 
+// Rows of ascending numbers: row i is values[begin[i] ... begin[i + 1]).
+struct SparseTable {
+  std::vector<std::uint32_t> begin{0};
+  std::vector<std::uint32_t> values;
+
+  std::span<const std::uint32_t> row(std::size_t i) const {
+    return std::span(values).subspan(begin[i], begin[i + 1] - begin[i]);
+  }
+};
+
 struct Geometry::Data {
   PointTable points;
   PlaneTable planes;
   std::vector<OrientedPlaneRef> of_added;
-  // The planes known to contain point i, ascending: incident_planes[incident_begin[i] ...
-  // incident_begin[i + 1]).
-  std::vector<std::uint32_t> incident_begin;
-  std::vector<std::uint32_t> incident_planes;
+  SparseTable planes_of_points;  // the planes known to contain each point
+  SparseTable points_of_planes;  // the same, the other way round
   LazyTable<Homogeneous<Integer>> homogeneous_points;
 
   std::span<const std::uint32_t> planes_through(PointId id) const {
-    const auto i = static_cast<std::size_t>(id);
-    return std::span(incident_planes)
-        .subspan(incident_begin[i], incident_begin[i + 1] - incident_begin[i]);
+    return planes_of_points.row(static_cast<std::size_t>(id));
   }
   const Plane& exact(std::uint32_t plane) const { return planes.exact(points, plane); }
   const Homogeneous<Integer>& homogeneous(PointId id) const {

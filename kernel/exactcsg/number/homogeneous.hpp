@@ -108,6 +108,34 @@ Homogeneous<T> meeting_point(const Coefficients<T>& p, const Coefficients<T>& q,
           -(p.d * of_p.z + q.d * of_q.z + r.d * of_r.z), w};
 }
 
+// One coordinate: value / w.
+template <class T>
+struct HomogeneousCoordinate {
+  T value, w;
+};
+
+template <class T>
+const T& component(const Cofactors<T>& c, Axis axis) {
+  return axis == Axis::X ? c.x : axis == Axis::Y ? c.y : c.z;
+}
+
+template <class T>
+T cofactor(const Coefficients<T>& p, const Coefficients<T>& q, Axis axis) {
+  if (axis == Axis::X) return p.b * q.c - p.c * q.b;
+  if (axis == Axis::Y) return p.c * q.a - p.a * q.c;
+  return p.a * q.b - p.b * q.a;
+}
+
+// The same formula as meeting_point, without the other two coordinates.
+template <class T>
+HomogeneousCoordinate<T> meeting_coordinate(const Coefficients<T>& p, const Coefficients<T>& q,
+                                            const Coefficients<T>& r, Axis axis) {
+  const Cofactors<T> of_p = cross(q, r);
+  const T of_q = cofactor(r, p, axis);
+  const T of_r = cofactor(p, q, axis);
+  return {-(p.d * component(of_p, axis) + q.d * of_q + r.d * of_r), determinant(p, of_p)};
+}
+
 // Bits of homogeneous coordinates: |x|, |y|, |z| < 2^coordinate, |w| < 2^denominator.
 struct HomogeneousBits {
   int coordinate = 0;

@@ -31,12 +31,16 @@ std::uint64_t hash_of(const Point3& point) {
   return hash;
 }
 
-// Is the rational a number m 2^-k of at most 53 bits, well inside the range of doubles?
-bool is_plain_double(const Rational& value) {
-  const mpz_srcptr denominator = value.get_den_mpz_t();
+// Whether the value is one of the doubles of ordinary size. Of a canonical rational it is easily
+// seen: the denominator is a power of two, and the numerator has at most 53 significant bits.
+bool is_double(const Rational& value) {
   const mpz_srcptr numerator = value.get_num_mpz_t();
+  const mpz_srcptr denominator = value.get_den_mpz_t();
+  if (mpz_sgn(numerator) == 0) return true;
   const std::size_t shift = mpz_sizeinbase(denominator, 2) - 1;
-  return mpz_scan1(denominator, 0) == shift && shift < 900 && mpz_sizeinbase(numerator, 2) <= 53;
+  const std::size_t length = mpz_sizeinbase(numerator, 2);
+  return shift < 900 && length < 900 && mpz_scan1(denominator, 0) == shift &&
+         length - mpz_scan1(numerator, 0) <= 53;
 }
 
 }  // namespace
@@ -48,11 +52,11 @@ ApproximatePoint approximate(const Point3& point) {
     return {0, 0, 0, std::numeric_limits<double>::infinity()};
   }
   const auto widen = [&result](const Rational& exact, double rounded) {
-    if (is_plain_double(exact)) return;
+    if (is_double(exact)) return;
     // Half a unit in the last place is at most 2^-53 of the value, or 2^-1075 of a subnormal one.
     const double half_unit =
         std::max(std::fabs(rounded) * 0x1p-53, std::numeric_limits<double>::denorm_min());
-    if (half_unit > result.error && rational_of(rounded) != exact) result.error = half_unit;
+    result.error = std::max(result.error, half_unit);
   };
   widen(point.x, result.x);
   widen(point.y, result.y);

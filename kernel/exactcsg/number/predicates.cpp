@@ -52,6 +52,48 @@ bool is_same_vertex(const Vertex& v, const Vertex& w) {
   return v.is_point ? v.point == w.point : std::ranges::equal(v.planes, w.planes);
 }
 
+// The input point at which the three planes are known to meet, if there is one: it is then known on
+// which other planes it lies, and its integers are shorter.
+std::optional<PointId> known_point(const Data& data, const Vertex& v) {
+  constexpr std::size_t longest_search = 64;
+  if (v.is_point) return v.point;
+  PlaneRef rarest = v.planes[0];
+  std::size_t fewest = longest_search + 1;
+  for (const PlaneRef plane : v.planes) {
+    if (plane.is_wall()) return std::nullopt;
+    const std::size_t count = data.points_of_planes.row(plane.table_index()).size();
+    if (count < fewest) {
+      fewest = count;
+      rarest = plane;
+    }
+  }
+  if (fewest > longest_search) return std::nullopt;
+  for (const std::uint32_t candidate : data.points_of_planes.row(rarest.table_index())) {
+    const auto known = data.planes_of_points.row(candidate);
+    const auto contains = [&known](PlaneRef plane) {
+      return std::ranges::find(known, plane.table_index()) != known.end();
+    };
+    if (std::ranges::all_of(v.planes, contains)) return PointId{candidate};
+  }
+  return std::nullopt;
+}
+
+// The vertex, as an input point if it is known to be one.
+Vertex resolved(const Data& data, const Vertex& v) {
+  if (v.is_point) return v;
+  const std::optional<PointId> known = known_point(data, v);
+  if (!known) return v;
+  Vertex point;
+  const ApproximatePoint& position = data.points.approximate(*known);
+  point.x = position.x;
+  point.y = position.y;
+  point.z = position.z;
+  point.error = position.error;
+  point.point = *known;
+  point.is_point = true;
+  return point;
+}
+
 // A plane perpendicular to the axis that is one of the meeting point's own.
 std::optional<PlaneRef> own_perpendicular(const Data& data, const Vertex& v, Axis axis) {
   if (v.is_point) return std::nullopt;
@@ -97,6 +139,15 @@ class VertexOperand {
     const auto& [p, q, r] = planes_;
     return meeting_point(exactcsg::load<T>(p), exactcsg::load<T>(q), exactcsg::load<T>(r));
   }
+  template <class T>
+  HomogeneousCoordinate<T> load(Axis axis) const {
+    if (point_ != nullptr) {
+      return {integer_from<T>(coordinate(*point_, axis)), integer_from<T>(point_->w)};
+    }
+    const auto& [p, q, r] = planes_;
+    return meeting_coordinate(exactcsg::load<T>(p), exactcsg::load<T>(q), exactcsg::load<T>(r),
+                              axis);
+  }
 
  private:
   const Homogeneous<Integer>* point_ = nullptr;
@@ -117,18 +168,19 @@ Decision exact_compare(const VertexOperand& v, const VertexOperand& w, Axis axis
                             w.bits().coordinate + v.bits().denominator) +
                    1;
   return decide(bits, [&]<class T>() {
-    const Homogeneous<T> p = v.load<T>();
-    const Homogeneous<T> q = w.load<T>();
-    const T difference = coordinate(p, axis) * q.w - coordinate(q, axis) * p.w;
-    return sign_of(difference) * sign_of(p.w) * sign_of(q.w);
+    const HomogeneousCoordinate<T> p = v.load<T>(axis);
+    const HomogeneousCoordinate<T> q = w.load<T>(axis);
+    return sign_of(T(p.value * q.w - q.value * p.w)) * sign_of(p.w) * sign_of(q.w);
   });
 }
 
 // --- The tiers in turn
 // -----------------------------------------------------------------------------
 
-Decision side_without_filter(const Data& data, const Vertex& v, PlaneRef plane) {
-  if (is_incident(data, v, plane)) return {Sign::Zero, Tier::Symbolic};
+Decision side_without_filter(const Data& data, const Vertex& meeting, PlaneRef plane) {
+  if (is_incident(data, meeting, plane)) return {Sign::Zero, Tier::Symbolic};
+  const Vertex v = resolved(data, meeting);
+  if (v.is_point && is_incident(data, v, plane)) return {Sign::Zero, Tier::Symbolic};
   if (const auto axis = perpendicular_axis(data, plane)) {
     const auto position = exact_position(data, plane);
     const auto coordinate = exact_coordinate(data, v, *axis);
@@ -150,10 +202,13 @@ Sign filtered_compare(const Vertex& v, const Vertex& w, Axis axis) {
   return difference > bound ? Sign::Positive : difference < -bound ? Sign::Negative : Sign::Zero;
 }
 
-Decision compare(const Data& data, const Vertex& v, const Vertex& w, Axis axis) {
-  if (const Sign sign = filtered_compare(v, w, axis); sign != Sign::Zero) {
+Decision compare(const Data& data, const Vertex& first, const Vertex& second, Axis axis) {
+  if (const Sign sign = filtered_compare(first, second, axis); sign != Sign::Zero) {
     return {sign, Tier::Double};
   }
+  if (share_perpendicular(data, first, second, axis)) return {Sign::Zero, Tier::Symbolic};
+  const Vertex v = resolved(data, first);
+  const Vertex w = resolved(data, second);
   if (is_same_vertex(v, w) || share_perpendicular(data, v, w, axis)) {
     return {Sign::Zero, Tier::Symbolic};
   }
@@ -175,12 +230,16 @@ Decision lies_on_own_planes(const Data& data, const Vertex& v, const Vertex& w) 
 }
 
 // Sign::Positive stands for "different".
-Decision same_position(const Data& data, const Vertex& v, const Vertex& w) {
+Decision same_position(const Data& data, const Vertex& first, const Vertex& second) {
+  if (is_same_vertex(first, second)) return {Sign::Zero, Tier::Symbolic};
+  if (first.is_point && second.is_point) return {Sign::Positive, Tier::Symbolic};
+  for (const Axis axis : axes) {
+    if (filtered_compare(first, second, axis) != Sign::Zero) return {Sign::Positive, Tier::Double};
+  }
+  const Vertex v = resolved(data, first);
+  const Vertex w = resolved(data, second);
   if (is_same_vertex(v, w)) return {Sign::Zero, Tier::Symbolic};
   if (v.is_point && w.is_point) return {Sign::Positive, Tier::Symbolic};
-  for (const Axis axis : axes) {
-    if (filtered_compare(v, w, axis) != Sign::Zero) return {Sign::Positive, Tier::Double};
-  }
   if (v.error == 0 && w.error == 0) return {Sign::Zero, Tier::Double};
   return w.is_point ? lies_on_own_planes(data, w, v) : lies_on_own_planes(data, v, w);
 }
