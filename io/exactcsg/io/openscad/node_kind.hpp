@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The nodes of the .csg format, and what is said of a name that is none of them.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace exactcsg::io::openscad {
+
+enum class NodeKind : std::uint8_t {
+  Group,  // group, color, render: a union, the rest of the arguments does not matter
+  Union,
+  Difference,
+  Intersection,
+  Hull,
+  Multmatrix,
+  LinearExtrude,
+  RotateExtrude,
+  Cube,
+  Sphere,
+  Cylinder,
+  Polyhedron,
+  Square,
+  Circle,
+  Polygon,
+  Unsupported,  // known to OpenSCAD, refused by name here (docs/limits.md)
+};
+
+// nullopt: no release of OpenSCAD writes such a node.
+std::optional<NodeKind> find_node_kind(std::string_view name);
+
+// What the writer may have meant: the known name with the smallest edit distance ("a node of the
+// .csg format, perhaps 'cube'"), or how to come by a .csg from the source language ("'translate'
+// belongs to .scad sources ...").
+std::string suggest_node(std::string_view unknown_name);
+
+}  // namespace exactcsg::io::openscad

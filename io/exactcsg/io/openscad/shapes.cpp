@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "exactcsg/io/openscad/shapes.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace exactcsg::io::openscad {
+
+namespace {
+
+using Names = std::span<const std::string_view>;
+
+// OpenSCAD's least $fa and $fs.
+constexpr double least_fineness = 0.01;
+
+double special(const Arguments& arguments, std::string_view name, double fallback) {
+  if (!arguments.is_given(name)) return fallback;
+  const auto number = arguments.number(name);
+  return number ? nearest_double(*number) : std::numeric_limits<double>::quiet_NaN();
+}
+
+Fineness read_fineness(const Arguments& arguments) {
+  Fineness fineness;
+  fineness.fn = special(arguments, "$fn", fineness.fn);
+  fineness.fa = special(arguments, "$fa", fineness.fa);
+  fineness.fs = special(arguments, "$fs", fineness.fs);
+  if (fineness.fa < least_fineness) fineness.fa = least_fineness;
+  if (fineness.fs < least_fineness) fineness.fs = least_fineness;
+  return fineness;
+}
+
+Rational size_or(const Arguments& arguments, std::string_view name, const Rational& fallback) {
+  const auto number = arguments.number(name);
+  if (!number) return fallback;
+  if (*number < 0) arguments.fail(*arguments.find(name), "a number of at least 0");
+  return *number;
+}
+
+// A radius, or half of the diameter, which goes first as in OpenSCAD.
+Rational radius_or(const Arguments& arguments, std::string_view radius, std::string_view diameter,
+                   const Rational& fallback) {
+  if (arguments.find(diameter) != nullptr) return size_or(arguments, diameter, 0) / 2;
+  return size_or(arguments, radius, fallback);
+}
+
+template <std::size_t N>
+std::array<Rational, N> sizes_or_one(const Arguments& arguments, std::string_view name) {
+  std::array<Rational, N> sizes;
+  sizes.fill(1);
+  if (const auto given = arguments.vector(name, N, true)) {
+    for (std::size_t i = 0; i < N; ++i) {
+      if ((*given)[i] < 0) arguments.fail(*arguments.find(name), "sizes of at least 0");
+      sizes[i] = (*given)[i];
+    }
+  }
+  return sizes;
+}
+
+// The index that a list of points is asked for.
+std::uint32_t read_index(const Arguments& arguments, const Value& value, std::size_t count) {
+  const Rational number = arguments.number_of(value, "the index of a point");
+  if (number.get_den() != 1) arguments.fail(value, "the index of a point");
+  if (number < 0 || number >= Rational(Integer(static_cast<unsigned long>(count)))) {
+    throw Error(ErrorId::UnknownVertex,
+                {to_text(number),
+                 count == 0 ? "no index, since there are no points"
+                            : "an index from 0 to " + std::to_string(count - 1),
+                 arguments.position(value)});
+  }
+  return static_cast<std::uint32_t>(number.get_num().get_ui());
+}
+
+std::vector<std::vector<std::uint32_t>> read_index_lists(const Arguments& arguments,
+                                                         const Value& value, std::size_t count) {
+  std::vector<std::vector<std::uint32_t>> lists;
+  for (const std::uint32_t list : arguments.elements(value, "a vector of vectors of indices")) {
+    std::vector<std::uint32_t> indices;
+    for (const std::uint32_t index :
+         arguments.elements(arguments.value(list), "a vector of indices of points")) {
+      indices.push_back(read_index(arguments, arguments.value(index), count));
+    }
+    lists.push_back(std::move(indices));
+  }
+  return lists;
+}
+
+template <std::size_t N>
+std::array<Rational, N> read_point(const Arguments& arguments, const Value& value) {
+  constexpr std::string_view expected = N == 2 ? "a point [x, y]" : "a point [x, y, z]";
+  const std::vector<std::uint32_t> entries = arguments.elements(value, expected);
+  if (entries.size() != N) arguments.fail(value, expected);
+  std::array<Rational, N> point;
+  for (std::size_t i = 0; i < N; ++i) {
+    point[i] = arguments.number_of(arguments.value(entries[i]), "a coordinate");
+  }
+  return point;
+}
+
+}  // namespace
+
+BoxShape read_cube(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"size", "center"};
+  const Arguments arguments(tree, node, names, 2, warnings);
+  return {sizes_or_one<3>(arguments, "size"), arguments.boolean("center").value_or(false)};
+}
+
+SphereShape read_sphere(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"r", "d", "$fn", "$fa", "$fs"};
+  const Arguments arguments(tree, node, names, 1, warnings);
+  return {radius_or(arguments, "r", "d", 1), read_fineness(arguments)};
+}
+
+CylinderShape read_cylinder(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"h",  "r1", "r2",  "center", "r",  "d",
+                                               "d1", "d2", "$fn", "$fa",    "$fs"};
+  const Arguments arguments(tree, node, names, 4, warnings);
+  const Rational both = radius_or(arguments, "r", "d", 1);
+  CylinderShape shape;
+  shape.height = size_or(arguments, "h", 1);
+  shape.lower_radius = radius_or(arguments, "r1", "d1", both);
+  shape.upper_radius = radius_or(arguments, "r2", "d2", both);
+  shape.center = arguments.boolean("center").value_or(false);
+  shape.fineness = read_fineness(arguments);
+  return shape;
+}
+
+FacedPoints read_polyhedron(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"points", "faces", "convexity", "triangles"};
+  const Arguments arguments(tree, node, names, 3, warnings);
+  const Value* const points = arguments.find("points");
+  const Value* faces = arguments.find("faces");
+  if (faces == nullptr) faces = arguments.find("triangles");  // its name until 2014
+  if (points == nullptr || faces == nullptr) {
+    throw Error(ErrorId::BadArgument, {points == nullptr ? "no points" : "no faces",
+                                       "a vector of points and a vector of faces",
+                                       arguments.node_position()});
+  }
+  FacedPoints result;
+  for (const std::uint32_t index : arguments.elements(*points, "a vector of points")) {
+    auto [x, y, z] = read_point<3>(arguments, arguments.value(index));
+    result.points.push_back({std::move(x), std::move(y), std::move(z)});
+  }
+  result.faces = read_index_lists(arguments, *faces, result.points.size());
+  // OpenSCAD lists vertices clockwise as seen from outside.
+  for (auto& face : result.faces) face = {face.rbegin(), face.rend()};
+  return result;
+}
+
+SquareShape read_square(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"size", "center"};
+  const Arguments arguments(tree, node, names, 2, warnings);
+  return {sizes_or_one<2>(arguments, "size"), arguments.boolean("center").value_or(false)};
+}
+
+CircleShape read_circle(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"r", "d", "$fn", "$fa", "$fs"};
+  const Arguments arguments(tree, node, names, 1, warnings);
+  return {radius_or(arguments, "r", "d", 1), read_fineness(arguments)};
+}
+
+PlanarFigure read_polygon(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"points", "paths", "convexity"};
+  const Arguments arguments(tree, node, names, 3, warnings);
+  PlanarFigure figure;
+  const Value* const points = arguments.find("points");
+  if (points == nullptr) return figure;
+  std::vector<Point2> vertices;
+  for (const std::uint32_t index : arguments.elements(*points, "a vector of points")) {
+    auto [x, y] = read_point<2>(arguments, arguments.value(index));
+    vertices.push_back({std::move(x), std::move(y)});
+  }
+  const Value* const paths = arguments.find("paths");
+  if (paths == nullptr) {
+    figure.paths.push_back(std::move(vertices));
+    return figure;
+  }
+  for (const auto& indices : read_index_lists(arguments, *paths, vertices.size())) {
+    std::vector<Point2>& path = figure.paths.emplace_back();
+    for (const std::uint32_t index : indices) path.push_back(vertices[index]);
+  }
+  return figure;
+}
+
+LinearExtrudeShape read_linear_extrude(const SyntaxTree& tree, std::uint32_t node,
+                                       Warnings& warnings) {
+  static constexpr std::string_view names[] = {"height", "center", "convexity", "twist", "slices",
+                                               "scale",  "$fn",    "$fa",       "$fs",   "v",
+                                               "segments", "file"};
+  const Arguments arguments(tree, node, names, 1, warnings);
+  for (const std::string_view name : {"v", "segments", "file"}) {
+    if (const Value* const value = arguments.find(name)) {
+      throw Error(ErrorId::UnsupportedNode, {"linear_extrude with '" + std::string(name) + "'",
+                                             "", arguments.position(*value)});
+    }
+  }
+  LinearExtrudeShape shape;
+  shape.height = size_or(arguments, "height", 100);
+  shape.center = arguments.boolean("center").value_or(false);
+  shape.twist = arguments.number("twist").value_or(0);
+  shape.scale = sizes_or_one<2>(arguments, "scale");
+  if (const auto slices = arguments.number("slices")) {
+    if (*slices > Rational(static_cast<unsigned long>(shape_vertex_limit))) {
+      throw Error(ErrorId::TooLarge, {"slices = " + to_text(*slices),
+                                      "at most " + std::to_string(shape_vertex_limit),
+                                      arguments.position(*arguments.find("slices"))});
+    }
+    // Cut to an integer, at least 1.
+    shape.slices = *slices < 1 ? 1 : Integer(slices->get_num() / slices->get_den()).get_ui();
+  }
+  shape.fineness = read_fineness(arguments);
+  return shape;
+}
+
+RotateExtrudeShape read_rotate_extrude(const SyntaxTree& tree, std::uint32_t node,
+                                       Warnings& warnings) {
+  static constexpr std::string_view names[] = {"angle", "convexity", "start", "$fn", "$fa", "$fs",
+                                               "file"};
+  const Arguments arguments(tree, node, names, 1, warnings);
+  if (const Value* const value = arguments.find("file")) {
+    throw Error(ErrorId::UnsupportedNode,
+                {"rotate_extrude with 'file'", "", arguments.position(*value)});
+  }
+  RotateExtrudeShape shape;
+  shape.angle = arguments.number("angle").value_or(360);
+  if (shape.angle <= -360 || shape.angle > 360) shape.angle = 360;
+  shape.start = arguments.number("start");
+  shape.fineness = read_fineness(arguments);
+  return shape;
+}
+
+std::optional<AffineMap> read_multmatrix(const SyntaxTree& tree, std::uint32_t node,
+                                         Warnings& warnings) {
+  static constexpr std::string_view names[] = {"m"};
+  const Arguments arguments(tree, node, names, 1, warnings);
+  std::array<std::array<Rational, 4>, 4> rows;
+  for (std::size_t i = 0; i < 4; ++i) rows[i][i] = 1;
+  const Value* const matrix = arguments.find("m");
+  if (matrix != nullptr) {
+    constexpr std::string_view expected = "a matrix of at most 4 rows of at most 4 numbers";
+    const auto row_values = arguments.elements(*matrix, expected);
+    if (row_values.size() > 4) arguments.fail(*matrix, expected);
+    for (std::size_t i = 0; i < row_values.size(); ++i) {
+      const Value& row = arguments.value(row_values[i]);
+      const auto entries = arguments.elements(row, expected);
+      if (entries.size() > 4) arguments.fail(row, expected);
+      for (std::size_t k = 0; k < entries.size(); ++k) {
+        const Value& entry = arguments.value(entries[k]);
+        // nan and inf: OpenSCAD drops the object.
+        if (entry.kind == Value::Kind::Undefined) {
+          warnings.add("the matrix has an entry that is no number: the object is removed",
+                       arguments.position(entry));
+          return std::nullopt;
+        }
+        rows[i][k] = arguments.number_of(entry, "a number");
+      }
+    }
+  }
+  if (rows[3][3] == 0) {
+    warnings.add("the matrix's last entry is zero: the object is removed",
+                 arguments.node_position());
+    return std::nullopt;
+  }
+  if (rows[3][0] != 0 || rows[3][1] != 0 || rows[3][2] != 0) {
+    warnings.add("the matrix's last row is not [0, 0, 0, w]: only w counts, as in OpenSCAD",
+                 arguments.node_position());
+  }
+  AffineMap map;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) map.m[i][k] = rows[i][k] / rows[3][3];
+  }
+  return map;
+}
+
+}  // namespace exactcsg::io::openscad
