@@ -58,11 +58,11 @@ Arguments::Arguments(const SyntaxTree& tree, std::uint32_t node,
                                        names.begin());
     }
     if (index == names.size()) {
-      warnings.add("'" + std::string(n.name) + "' has no argument " +
-                       (argument.name.empty() ? "at this place"
-                                              : "'" + std::string(argument.name) + "'") +
-                       ": ignored",
-                   tree.position(argument.offset));
+      warnings.add(
+          "'" + std::string(n.name) + "' has no argument " +
+              (argument.name.empty() ? "at this place" : "'" + std::string(argument.name) + "'") +
+              ": ignored",
+          tree.position(argument.offset));
       continue;
     }
     if (given_[index] != not_given) {

@@ -44,7 +44,8 @@ class Arguments {
   // THROWS Error(BadArgument | NumberOutOfRange) at the argument, all of them.
   std::optional<Rational> number(std::string_view name) const;
   std::optional<bool> boolean(std::string_view name) const;
-  // A vector of exactly `size` numbers; with `scalar_repeats`, one number stands for `size` equal ones.
+  // A vector of exactly `size` numbers; with `scalar_repeats`, one number stands for `size` equal
+  // ones.
   std::optional<std::vector<Rational>> vector(std::string_view name, std::size_t size,
                                               bool scalar_repeats) const;
 

@@ -9,8 +9,10 @@
 //
 // LAW degree.1  sine(30) == 0.5, sine(90) == 1, cosine(60) == 0.5, cosine(90) == 0
 // LAW degree.2  |result - true value| <= 2^-51 for 0 <= x <= 360: folding is exact (Sterbenz), the
-// conversion to radians is off by at most 2.4 * 2^-53 of an angle below 0.79, and the library's value
-// by one unit in the last place of a number below 1.
+// conversion to radians is off by at most 2.4 * 2^-53 of an angle below 0.79, and the library's
+// value by one unit in the last place of a number below 1.
+
+namespace exactcsg::io::openscad {
 
 double sine_of_degrees(double x);    // NaN for |x| >= 360 * 2^52
 double cosine_of_degrees(double x);  // NaN for |x| >= 360 * 2^52

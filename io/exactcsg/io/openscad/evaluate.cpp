@@ -82,8 +82,8 @@ AffineMap diagonal(const Rational& x, const Rational& y, const Rational& z, cons
   return map;
 }
 
-// What a subtree stands for. Dimension 0: nothing at all (a group without children); an empty set of
-// dimension 2 or 3 is something else, since it takes part in choosing the parent's dimension.
+// What a subtree stands for. Dimension 0: nothing at all (a group without children); an empty set
+// of dimension 2 or 3 is something else, since it takes part in choosing the parent's dimension.
 struct Outcome {
   std::uint32_t node = 0;
   int dimension = 0;
@@ -102,8 +102,8 @@ const PlanarTree& tree_of<PlanarTree>(const Outcome& outcome) {
   return outcome.planar;
 }
 
-// OpenSCAD's rules for empty operands: a difference without its first is empty, an intersection with
-// an empty one too, all others are skipped.
+// OpenSCAD's rules for empty operands: a difference without its first is empty, an intersection
+// with an empty one too, all others are skipped.
 template <class Tree>
 Tree combine(BooleanOperator operation, std::span<const Outcome> operands) {
   std::vector<Tree> trees;
@@ -206,8 +206,8 @@ class Evaluator {
     }
     const auto kind = find_node_kind(node.name);
     if (!kind) {
-      throw Error(ErrorId::UnknownNode,
-                  {"'" + std::string(node.name.substr(0, 64)) + "'", suggest_node(node.name), position(index)});
+      throw Error(ErrorId::UnknownNode, {"'" + std::string(node.name.substr(0, 64)) + "'",
+                                         suggest_node(node.name), position(index)});
     }
     if (*kind == NodeKind::Unsupported) {
       throw Error(ErrorId::UnsupportedNode,
@@ -260,17 +260,16 @@ class Evaluator {
       warnings_.add("the matrix is singular: solids below it are empty", position(node));
     }
     if (largest_bits(next.space) > map_bit_limit) {
-      throw Error(ErrorId::TooLarge,
-                  {"nested matrices whose product has numbers of more than " +
-                       std::to_string(map_bit_limit) + " bits",
-                   "", position(node)});
+      throw Error(ErrorId::TooLarge, {"nested matrices whose product has numbers of more than " +
+                                          std::to_string(map_bit_limit) + " bits",
+                                      "", position(node)});
     }
     return std::make_shared<const Placement>(std::move(next));
   }
 
   void leave(const Frame& frame) {
-    const std::span<const Outcome> operands(results_.begin() + static_cast<std::ptrdiff_t>(frame.first_result),
-                                            results_.end());
+    const std::span<const Outcome> operands(
+        results_.begin() + static_cast<std::ptrdiff_t>(frame.first_result), results_.end());
     Outcome outcome;
     try {
       outcome = inner(frame, operands);
@@ -375,7 +374,8 @@ class Evaluator {
     Rational largest{0};
     for (const auto& path : figure.paths) {
       vertices += path.size();
-      for (const Point2& p : path) largest = std::max({largest, Rational(abs(p.x)), Rational(abs(p.y))});
+      for (const Point2& p : path)
+        largest = std::max({largest, Rational(abs(p.x)), Rational(abs(p.y))});
     }
     count_vertices(vertices * (slices + 1));
     if (twist != 0) {
@@ -447,14 +447,16 @@ class Evaluator {
     const auto directions = ring_directions(shape, largest - least, least < 0);
     count_vertices(vertices * directions.size());
     add_rounding(unit_rounding_bound() * (largest - least) * stretch(frame.placement->space));
-    result.solid = placed(rotate_extrude(*outline, directions, shape.angle == 360), *frame.placement);
+    result.solid =
+        placed(rotate_extrude(*outline, directions, shape.angle == 360), *frame.placement);
     return result;
   }
 
   // Counter-clockwise as seen from above. An outline left of the axis is swept by the opposite
   // directions, once it is mirrored to the right.
   static std::vector<std::array<Rational, 2>> ring_directions(const RotateExtrudeShape& shape,
-                                                              const Rational& radius, bool opposite) {
+                                                              const Rational& radius,
+                                                              bool opposite) {
     const double angle = nearest_double(shape.angle);
     const bool closed = shape.angle == 360;
     const double pieces =
@@ -587,9 +589,8 @@ class Evaluator {
     count_vertices(points.points.size());
     ++primitives_;
     if (points.points.empty() && points.faces.empty()) return Solid::empty();
-    Primitive primitive = make_polyhedron(points, [&](const std::string& text) {
-      warnings_.add(text, position(node));
-    });
+    Primitive primitive = make_polyhedron(
+        points, [&](const std::string& text) { warnings_.add(text, position(node)); });
     if (placement.singular) return Solid::empty();
     if (placement.space != AffineMap::identity()) primitive = apply(placement.space, primitive);
     primitive.origin = origin(node);
@@ -652,8 +653,9 @@ class Evaluator {
   void count_vertices(std::size_t count) {
     vertices_ += count;
     if (vertices_ > model_vertex_limit) {
-      throw Error(ErrorId::TooLarge, {"more than " + std::to_string(model_vertex_limit) +
-                                          " vertices of primitives", ""});
+      throw Error(
+          ErrorId::TooLarge,
+          {"more than " + std::to_string(model_vertex_limit) + " vertices of primitives", ""});
     }
   }
 

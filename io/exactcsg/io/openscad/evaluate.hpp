@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// From the nodes of a .csg file to a solid. Iterative: neither the depth of the nodes nor the number
-// of children costs call stack.
+// From the nodes of a .csg file to a solid. Iterative: neither the depth of the nodes nor the
+// number of children costs call stack.
 
 #include "exactcsg/io/model.hpp"
 #include "exactcsg/io/openscad/syntax.hpp"

@@ -64,10 +64,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::optional<NodeKind> find_node_kind(std::string_view name) {
-  const auto found = std::lower_bound(node_kinds.begin(), node_kinds.end(), name,
-                                      [](const auto& entry, std::string_view text) {
-                                        return entry.first < text;
-                                      });
+  const auto found =
+      std::lower_bound(node_kinds.begin(), node_kinds.end(), name,
+                       [](const auto& entry, std::string_view text) { return entry.first < text; });
   if (found == node_kinds.end() || found->first != name) return std::nullopt;
   return found->second;
 }
@@ -79,11 +78,12 @@ std::string suggest_node(std::string_view unknown_name) {
   }
   constexpr std::size_t longest = 64;  // no name is near to such a word
   if (unknown_name.size() > longest) return "a node of the .csg format";
-  const auto nearest = std::min_element(
-      node_kinds.begin(), node_kinds.end(), [&](const auto& a, const auto& b) {
+  const auto nearest =
+      std::min_element(node_kinds.begin(), node_kinds.end(), [&](const auto& a, const auto& b) {
         return edit_distance(unknown_name, a.first) < edit_distance(unknown_name, b.first);
       });
-  if (edit_distance(unknown_name, nearest->first) > std::max<std::size_t>(1, unknown_name.size() / 3)) {
+  if (edit_distance(unknown_name, nearest->first) >
+      std::max<std::size_t>(1, unknown_name.size() / 3)) {
     return "a node of the .csg format";
   }
   return "a node of the .csg format, perhaps '" + std::string(nearest->first) + "'";

@@ -163,8 +163,8 @@ const auto value_def = x3::raw[number][on_number] | text_value | vector_value |
 BOOST_SPIRIT_DEFINE(value)
 
 const auto argument_name = (x3::raw[identifier] >> x3::lit('='))[on_argument_name];
-const auto argument = (!x3::lit(')') >> x3::raw[x3::eps][on_argument_start] >> -argument_name) >
-                      value;
+const auto argument =
+    (!x3::lit(')') >> x3::raw[x3::eps][on_argument_start] >> -argument_name) > value;
 const auto arguments = argument > *(x3::lit(',') >> argument) > -x3::lit(',');
 const auto opening = named("'(' after the node's name", x3::lit('('));
 const auto closing = named("',' or ')'", x3::lit(')'));
@@ -219,7 +219,8 @@ class Parser {
 
   void parse_header() {
     if (tree_.nodes.size() >= std::numeric_limits<std::uint32_t>::max() - 1) {
-      throw Error(ErrorId::TooLarge, {"more than 2^32 nodes", "", tree_.position(sink_.offset(at_))});
+      throw Error(ErrorId::TooLarge,
+                  {"more than 2^32 nodes", "", tree_.position(sink_.offset(at_))});
     }
     const auto first_argument = static_cast<std::uint32_t>(tree_.arguments.size());
     tree_.nodes.emplace_back();
@@ -251,8 +252,8 @@ class Parser {
     }
     if (*at_ == '{') {
       if (open_nodes_.size() >= nesting_limit_) {
-        throw Error(ErrorId::TooDeep, {"more than " + std::to_string(nesting_limit_) + " levels", "",
-                                       tree_.position(tree_.nodes[node].offset)});
+        throw Error(ErrorId::TooDeep, {"more than " + std::to_string(nesting_limit_) + " levels",
+                                       "", tree_.position(tree_.nodes[node].offset)});
       }
       open_nodes_.push_back(node);
     }
@@ -302,8 +303,8 @@ class Parser {
     return text + "'";
   }
 
-  // True if what follows is cut off by the file's end rather than wrong: nothing, an unfinished word
-  // or number, or an unfinished comment.
+  // True if what follows is cut off by the file's end rather than wrong: nothing, an unfinished
+  // word or number, or an unfinished comment.
   bool is_cut_off(const char* at) const {
     const std::string_view rest(at, end_);
     if (rest.starts_with("/*")) return rest.find("*/", 2) == std::string_view::npos;

@@ -217,12 +217,12 @@ class FaceSplitter {
   std::vector<Facet> take() && { return std::move(facets_); }
 
  private:
-  void add_triangles(const Face& face, const std::vector<Point2>& points,
-                     const std::string& name) {
+  void add_triangles(const Face& face, const std::vector<Point2>& points, const std::string& name) {
     auto triangles = cut_ears(face, points);
     if (!triangles) {
       throw Error(ErrorId::SelfIntersectingMesh,
-                  {"face " + name + ", whose outline crosses itself or turns clockwise", "a simple polygon"});
+                  {"face " + name + ", whose outline crosses itself or turns clockwise",
+                   "a simple polygon"});
     }
     for (Face& triangle : *triangles) facets_.push_back(std::move(triangle));
   }
@@ -304,8 +304,9 @@ Primitive make_polyhedron(const FacedPoints& input,
     face.reserve(given.size());
     for (const std::uint32_t point : given) {
       if (point >= input.points.size()) {
-        throw Error(ErrorId::UnknownVertex,
-                    {std::to_string(point), "an index below " + std::to_string(input.points.size())});
+        throw Error(
+            ErrorId::UnknownVertex,
+            {std::to_string(point), "an index below " + std::to_string(input.points.size())});
       }
       face.push_back(welded.of_point[point]);
     }

@@ -3,7 +3,8 @@
 
 // A polyhedron as users write it (points and faces of any shape) as one primitive. [Exact]
 //
-// 1. Equal points are one vertex; repeated vertices of a face are dropped, and faces with fewer than
+// 1. Equal points are one vertex; repeated vertices of a face are dropped, and faces with fewer
+// than
 //    three different vertices with a warning.
 // 2. A planar convex face is kept. A planar non-convex one is split into convex pieces. One that is
 //    not quite planar (six digits cannot hold most rotated quadrilaterals) is split into triangles,

@@ -133,9 +133,9 @@ FacedPoints read_polyhedron(const SyntaxTree& tree, std::uint32_t node, Warnings
   const Value* faces = arguments.find("faces");
   if (faces == nullptr) faces = arguments.find("triangles");  // its name until 2014
   if (points == nullptr || faces == nullptr) {
-    throw Error(ErrorId::BadArgument, {points == nullptr ? "no points" : "no faces",
-                                       "a vector of points and a vector of faces",
-                                       arguments.node_position()});
+    throw Error(ErrorId::BadArgument,
+                {points == nullptr ? "no points" : "no faces",
+                 "a vector of points and a vector of faces", arguments.node_position()});
   }
   FacedPoints result;
   for (const std::uint32_t index : arguments.elements(*points, "a vector of points")) {
@@ -185,14 +185,14 @@ PlanarFigure read_polygon(const SyntaxTree& tree, std::uint32_t node, Warnings& 
 
 LinearExtrudeShape read_linear_extrude(const SyntaxTree& tree, std::uint32_t node,
                                        Warnings& warnings) {
-  static constexpr std::string_view names[] = {"height", "center", "convexity", "twist", "slices",
-                                               "scale",  "$fn",    "$fa",       "$fs",   "v",
-                                               "segments", "file"};
+  static constexpr std::string_view names[] = {"height", "center", "convexity", "twist",
+                                               "slices", "scale",  "$fn",       "$fa",
+                                               "$fs",    "v",      "segments",  "file"};
   const Arguments arguments(tree, node, names, 1, warnings);
   for (const std::string_view name : {"v", "segments", "file"}) {
     if (const Value* const value = arguments.find(name)) {
-      throw Error(ErrorId::UnsupportedNode, {"linear_extrude with '" + std::string(name) + "'",
-                                             "", arguments.position(*value)});
+      throw Error(ErrorId::UnsupportedNode, {"linear_extrude with '" + std::string(name) + "'", "",
+                                             arguments.position(*value)});
     }
   }
   LinearExtrudeShape shape;
@@ -202,9 +202,9 @@ LinearExtrudeShape read_linear_extrude(const SyntaxTree& tree, std::uint32_t nod
   shape.scale = sizes_or_one<2>(arguments, "scale");
   if (const auto slices = arguments.number("slices")) {
     if (*slices > Rational(static_cast<unsigned long>(shape_vertex_limit))) {
-      throw Error(ErrorId::TooLarge, {"slices = " + to_text(*slices),
-                                      "at most " + std::to_string(shape_vertex_limit),
-                                      arguments.position(*arguments.find("slices"))});
+      throw Error(ErrorId::TooLarge,
+                  {"slices = " + to_text(*slices), "at most " + std::to_string(shape_vertex_limit),
+                   arguments.position(*arguments.find("slices"))});
     }
     // Cut to an integer, at least 1.
     shape.slices = *slices < 1 ? 1 : Integer(slices->get_num() / slices->get_den()).get_ui();
@@ -215,8 +215,8 @@ LinearExtrudeShape read_linear_extrude(const SyntaxTree& tree, std::uint32_t nod
 
 RotateExtrudeShape read_rotate_extrude(const SyntaxTree& tree, std::uint32_t node,
                                        Warnings& warnings) {
-  static constexpr std::string_view names[] = {"angle", "convexity", "start", "$fn", "$fa", "$fs",
-                                               "file"};
+  static constexpr std::string_view names[] = {"angle", "convexity", "start", "$fn",
+                                               "$fa",   "$fs",       "file"};
   const Arguments arguments(tree, node, names, 1, warnings);
   if (const Value* const value = arguments.find("file")) {
     throw Error(ErrorId::UnsupportedNode,

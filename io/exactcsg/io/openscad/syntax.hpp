@@ -14,7 +14,8 @@
 //
 // LAW syntax.1  positions: every node and argument remembers the byte at which it starts.
 // LAW syntax.2  parse(text) throws Error or returns; it never reads outside `text`, and its stack
-//               does not grow with the depth of the nodes. Vectors nest at most `vector_depth_limit`.
+//               does not grow with the depth of the nodes. Vectors nest at most
+//               `vector_depth_limit`.
 // COST: O(length of the text).
 
 #include <cstddef>

@@ -93,7 +93,8 @@ std::vector<Facet> ring_facets(std::size_t n, std::size_t rings) {
   facets.push_back(std::move(bottom));
   for (std::size_t ring = 0; ring + 1 < rings; ++ring) {
     for (std::size_t i = 0; i < n; ++i) {
-      facets.push_back({index(ring, i), index(ring + 1, i), index(ring + 1, i + 1), index(ring, i + 1)});
+      facets.push_back(
+          {index(ring, i), index(ring + 1, i), index(ring + 1, i + 1), index(ring, i + 1)});
     }
   }
   return facets;
@@ -121,9 +122,9 @@ std::size_t fragments(double radius, const Fineness& fineness) {
   const auto [fn, fa, fs] = fineness;
   if (radius < grid || !std::isfinite(fn)) return 3;
   if (fn > 0.0) return checked_count(fn >= 3 ? fn : 3, "$fn =");
-  return checked_count(std::ceil(std::fmax(
-                           std::fmin(360.0 / fa, radius * 2 * std::numbers::pi / fs), 5)),
-                       "fragments of a circle:");
+  return checked_count(
+      std::ceil(std::fmax(std::fmin(360.0 / fa, radius * 2 * std::numbers::pi / fs), 5)),
+      "fragments of a circle:");
 }
 
 std::size_t helix_slices(double radius_squared, double height, double twist,
@@ -131,7 +132,8 @@ std::size_t helix_slices(double radius_squared, double height, double twist,
   const auto [fn, fa, fs] = fineness;
   twist = std::fabs(twist);
   const double least = minimum_slices(twist);
-  if (std::sqrt(radius_squared) < grid || !std::isfinite(fn)) return checked_count(least, "slices:");
+  if (std::sqrt(radius_squared) < grid || !std::isfinite(fn))
+    return checked_count(least, "slices:");
   if (fn > 0.0) return checked_count(std::max(std::ceil(twist / 360.0 * fn), least), "slices:");
   const double turn = twist * std::numbers::pi / 180.0;
   const double pitch = height / turn;
@@ -226,7 +228,8 @@ Polyhedron place(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
     return value;
   };
   for (const auto& v : polyhedron.vertices) {
-    result.vertices.push_back({coordinate(rows[0], v), coordinate(rows[1], v), coordinate(rows[2], v)});
+    result.vertices.push_back(
+        {coordinate(rows[0], v), coordinate(rows[1], v), coordinate(rows[2], v)});
   }
   result.facets = polyhedron.facets;
   if (determinant(map) < 0) {
@@ -245,8 +248,9 @@ struct ShapeCache::Tables {
     std::vector<Direction> directions = circle_directions(n);
     // Edges turn by 2 pi / n; rounding cannot undo that below n = 10^7, far beyond the limit.
     if (!is_strictly_convex(directions)) {
-      throw Error(ErrorId::InternalError,
-                  {"a rounded circle of " + std::to_string(n) + " vertices that is not convex", ""});
+      throw Error(
+          ErrorId::InternalError,
+          {"a rounded circle of " + std::to_string(n) + " vertices that is not convex", ""});
     }
     return directions;
   }
@@ -265,8 +269,8 @@ const IntegerPolyhedron& ShapeCache::sphere(std::size_t n) {
   }
   const std::vector<Direction> profile = sphere_profile(n);
   if (!is_convex_profile(profile)) {
-    throw Error(ErrorId::InternalError, {"a rounded sphere of " + std::to_string(n) +
-                                             " fragments that is not convex", ""});
+    throw Error(ErrorId::InternalError,
+                {"a rounded sphere of " + std::to_string(n) + " fragments that is not convex", ""});
   }
   Polyhedron sphere;
   sphere.vertices.reserve(n * rings);

@@ -8,9 +8,11 @@
 // radius, at the ring's height. Neighbouring rings have parallel edges, so every quadrilateral
 // between them is planar in exact arithmetic, and stays so under exact affine maps.
 //
-// LAW tessellation.1  facets are exactly planar, and the shapes exactly convex (checked once for each
+// LAW tessellation.1  facets are exactly planar, and the shapes exactly convex (checked once for
+// each
 //                     number of fragments).
-// LAW tessellation.2  every vertex of a unit shape differs from the one with exact sines and cosines
+// LAW tessellation.2  every vertex of a unit shape differs from the one with exact sines and
+// cosines
 //                     by at most `unit_rounding_bound` in each coordinate.
 // Source: OpenSCAD's src/calc.cc, src/primitives.cc (2021.01).
 
@@ -38,9 +40,9 @@ struct Fineness {
 // THROWS Error(TooLarge) beyond shape_vertex_limit.
 std::size_t fragments(double radius, const Fineness& fineness);
 
-// OpenSCAD's count of slices of a linear extrusion, where the model does not give it. `radius_squared`
-// is that of the outline's farthest vertex; `delta_squared` that of the longest way of a vertex from
-// bottom to top, seen from above. THROWS Error(TooLarge)
+// OpenSCAD's count of slices of a linear extrusion, where the model does not give it.
+// `radius_squared` is that of the outline's farthest vertex; `delta_squared` that of the longest
+// way of a vertex from bottom to top, seen from above. THROWS Error(TooLarge)
 std::size_t helix_slices(double radius_squared, double height, double twist, const Fineness&);
 std::size_t conical_helix_slices(double radius_squared, double height, double twist, double scale,
                                  const Fineness&);
@@ -51,8 +53,8 @@ using Direction = std::array<double, 2>;
 std::vector<Direction> circle_directions(std::size_t n);
 
 // 2^-48. A direction is off by at most 2^-51 (LAW degree.2) plus 2 pi 2^-53 for the rounding of the
-// angle 360 i / n, together less than 2.6 * 2^-51; ring radii and heights of a sphere are such numbers
-// too, and a product of two of them is off by at most 5.3 * 2^-51.
+// angle 360 i / n, together less than 2.6 * 2^-51; ring radii and heights of a sphere are such
+// numbers too, and a product of two of them is off by at most 5.3 * 2^-51.
 Rational unit_rounding_bound();
 
 // A polyhedron whose vertices share one denominator, so that it is mapped with integers alone.
@@ -66,8 +68,8 @@ IntegerPolyhedron with_common_denominator(const Polyhedron& polyhedron);
 // The image; facets are turned round if the map mirrors. REQUIRES determinant(map) != 0
 Polyhedron place(const AffineMap& map, const IntegerPolyhedron& polyhedron);
 
-// Shapes of radius 1. Sphere: OpenSCAD's rings. Cylinder: height 0 to 1. Cached by n: two nodes with
-// the same n share one shape. Not to be called from several threads on one cache.
+// Shapes of radius 1. Sphere: OpenSCAD's rings. Cylinder: height 0 to 1. Cached by n: two nodes
+// with the same n share one shape. Not to be called from several threads on one cache.
 class ShapeCache {
  public:
   ShapeCache();
