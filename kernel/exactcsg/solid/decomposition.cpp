@@ -57,17 +57,6 @@ WallSide wall_side(const Geometry& geometry, const ClippedFacet& facet,
   return above ? WallSide::Above : WallSide::Within;
 }
 
-bool single_primitive(const PrunedTree& tree) {
-  auto node = tree.root();
-  const auto end = node.next_sibling();
-  std::size_t found = 0;
-  for (; !(node == end); node = node.first_child()) {
-    found += node.kind() == csg::NodeKind::Primitive;
-    if (found > 1) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 // Indexed by primitive; reset after use.
@@ -232,6 +221,11 @@ Decomposition::Decomposition(const Scene& scene, std::size_t facets_per_cell, Pr
       progress_(progress),
       scratch_(std::make_unique<ScratchPerThread>(scene.primitives.size())) {}
 
+bool Decomposition::is_one_primitive(const CellTask& task) const {
+  return !task.facets.empty() && scene_.facets[task.facets.front().facet].primitive ==
+                                     scene_.facets[task.facets.back().facet].primitive;
+}
+
 std::span<const Corner> Decomposition::corners_of(const CellTask& task,
                                                   const ClippedFacet& facet) const {
   const std::vector<Corner>& store = facet.clipped ? task.corners : scene_.corners;
@@ -264,7 +258,7 @@ CellTask Decomposition::root() const {
 bool Decomposition::is_leaf(const CellTask& task) const {
   if (progress_ != nullptr) progress_->check();
   return task.facets.empty() || task.facets.size() <= facets_per_cell_ ||
-         task.stalled >= stall_limit || task.depth >= depth_limit || single_primitive(task.tree);
+         task.stalled >= stall_limit || task.depth >= depth_limit;
 }
 
 namespace {

@@ -54,8 +54,11 @@ class Decomposition {
   ~Decomposition();
 
   CellTask root() const;
-  // The tree is constant, or a single primitive, or the facets are few, or dividing is of no use.
+  // The tree is constant, or the facets are few, or dividing is of no use.
+  // THROWS what Progress throws.
   bool is_leaf(const CellTask& task) const;
+  // All facets are of one primitive.
+  bool is_one_primitive(const CellTask& task) const;
   // Where to divide; nullopt: nowhere without a facet in the wall.
   std::optional<Division> choose_division(const CellTask& task) const;
   // The cell below the wall and the cell above it. REQUIRES no facet lies in the wall.

@@ -58,7 +58,7 @@ class Evaluation {
     if (progress_ != nullptr) progress_->advance(task.cell.facets.size());
     if (task.cell.facets.empty()) return result;
     PieceBuffer buffer;
-    if (is_one_primitive(task.cell)) {
+    if (decomposition_.is_one_primitive(task.cell)) {
       emit_primitive(task.cell, buffer);
     } else {
       result.evaluated_cells = 1;
@@ -87,16 +87,13 @@ class Evaluation {
   }
 
  private:
+  // A cell with one primitive only needs no division: most of a scene ends there.
   EvaluationTask prepared(CellTask cell) const {
     EvaluationTask task{std::move(cell), std::nullopt};
-    if (!decomposition_.is_leaf(task.cell))
+    if (!decomposition_.is_leaf(task.cell) && !decomposition_.is_one_primitive(task.cell)) {
       task.division = decomposition_.choose_division(task.cell);
+    }
     return task;
-  }
-
-  bool is_one_primitive(const CellTask& cell) const {
-    return scene_.facets[cell.facets.front().facet].primitive ==
-           scene_.facets[cell.facets.back().facet].primitive;
   }
 
   // The only primitive of the cell: its facets are boundary as they are, or not at all.
