@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "exactcsg/io/openscad/degree_trigonometry.hpp"
-#include "exactcsg/io/openscad/node_kind.hpp"
+#include "exactcsg/io/openscad/node_walk.hpp"
 #include "exactcsg/io/openscad/shapes.hpp"
 
 namespace exactcsg::io::openscad {
@@ -84,7 +84,7 @@ AffineMap diagonal(const Rational& x, const Rational& y, const Rational& z, cons
 
 // What a subtree stands for. Dimension 0: nothing at all (a group without children); an empty set
 // of dimension 2 or 3 is something else, since it takes part in choosing the parent's dimension.
-struct Outcome {
+struct ExactOutcome {
   std::uint32_t node = 0;
   int dimension = 0;
   Solid solid;
@@ -92,20 +92,20 @@ struct Outcome {
 };
 
 template <class Tree>
-const Tree& tree_of(const Outcome& outcome);
+const Tree& tree_of(const ExactOutcome& outcome);
 template <>
-const Solid& tree_of<Solid>(const Outcome& outcome) {
+const Solid& tree_of<Solid>(const ExactOutcome& outcome) {
   return outcome.solid;
 }
 template <>
-const PlanarTree& tree_of<PlanarTree>(const Outcome& outcome) {
+const PlanarTree& tree_of<PlanarTree>(const ExactOutcome& outcome) {
   return outcome.planar;
 }
 
 // OpenSCAD's rules for empty operands: a difference without its first is empty, an intersection
 // with an empty one too, all others are skipped.
 template <class Tree>
-Tree combine(BooleanOperator operation, std::span<const Outcome> operands) {
+Tree combine(BooleanOperator operation, std::span<const ExactOutcome> operands) {
   std::vector<Tree> trees;
   for (std::size_t i = 0; i < operands.size(); ++i) {
     const Tree& tree = tree_of<Tree>(operands[i]);
@@ -121,128 +121,33 @@ Tree combine(BooleanOperator operation, std::span<const Outcome> operands) {
   return Tree::compose(operation, std::move(trees));
 }
 
-class Evaluator {
+class ExactBuilder {
  public:
-  Evaluator(const SyntaxTree& tree, const ReadOptions& options) : tree_(tree), options_(options) {}
+  using Context = PlacementPointer;
+  using Outcome = ExactOutcome;
 
-  Model run() {
-    std::uint32_t begin = 0;
-    auto end = static_cast<std::uint32_t>(tree_.nodes.size());
-    if (const auto root = find_root()) {
-      begin = *root;
-      end = tree_.nodes[*root].end;
-    }
-    if (options_.progress != nullptr) options_.progress->begin("read", end - begin);
-    visit_all(begin, end);
+  ExactBuilder(const SyntaxTree& tree, Warnings& warnings) : tree_(tree), warnings_(warnings) {}
+
+  Context root() const { return identity_; }
+
+  Model finish(std::vector<Outcome> statements) {
     Model model;
-    Outcome whole = unite(results_);
+    Outcome whole = unite(statements);
     if (whole.dimension == 2) {
       throw Error(ErrorId::NotThreeDimensional,
                   {"a planar model", "a solid", position(whole.node)});
     }
     model.solid = std::move(whole.solid);
     if (model.solid.is_empty()) {
-      warnings_.add("the model is empty (OpenSCAD refuses to export it)", position(begin));
+      warnings_.add("the model is empty (OpenSCAD refuses to export it)", position(0));
     }
-    model.warnings = std::move(warnings_).take();
     model.primitives = primitives_;
     model.rounding_bound = std::move(rounding_bound_);
     return model;
   }
 
- private:
-  struct Frame {
-    std::uint32_t node;
-    std::uint32_t next;
-    std::uint32_t end;
-    std::size_t first_result;
-    NodeKind kind;
-    PlacementPointer placement;  // of the node itself; given away with the last child
-    PlacementPointer below;      // of its children
-  };
-
-  SourcePosition position(std::uint32_t node) const {
-    return tree_.position(tree_.nodes[node].offset);
-  }
-
-  // The node with the root modifier, if any: only that subtree counts then.
-  std::optional<std::uint32_t> find_root() const {
-    for (std::uint32_t i = 0; i < tree_.nodes.size();) {
-      const Modifiers& modifiers = tree_.nodes[i].modifiers;
-      if (modifiers.root) return i;
-      i = modifiers.background || modifiers.disabled ? tree_.nodes[i].end : i + 1;
-    }
-    return std::nullopt;
-  }
-
-  void visit_all(std::uint32_t begin, std::uint32_t end) {
-    const auto identity = std::make_shared<const Placement>();
-    for (std::uint32_t node = begin; node < end; node = tree_.nodes[node].end) {
-      enter(node, identity);
-      while (!frames_.empty()) step();
-    }
-  }
-
-  void step() {
-    Frame& frame = frames_.back();
-    if (frame.next == frame.end) {
-      const Frame done = std::move(frame);
-      frames_.pop_back();
-      leave(done);
-      return;
-    }
-    const std::uint32_t child = frame.next;
-    frame.next = tree_.nodes[child].end;
-    // Handed on with the last child, so that a long chain of matrices is not kept.
-    enter(child, frame.next == frame.end ? std::move(frame.below) : frame.below);
-  }
-
-  void enter(std::uint32_t index, PlacementPointer placement) {
-    const Node& node = tree_.nodes[index];
-    if (node.modifiers.background || node.modifiers.disabled) return;
-    if (options_.progress != nullptr) {
-      options_.progress->advance();
-      options_.progress->check();
-    }
-    const auto kind = find_node_kind(node.name);
-    if (!kind) {
-      throw Error(ErrorId::UnknownNode, {"'" + std::string(node.name.substr(0, 64)) + "'",
-                                         suggest_node(node.name), position(index)});
-    }
-    if (*kind == NodeKind::Unsupported) {
-      throw Error(ErrorId::UnsupportedNode,
-                  {"'" + std::string(node.name) + "'", "", position(index)});
-    }
-    if (is_leaf(*kind)) {
-      if (node.end != index + 1) {
-        warnings_.add("'" + std::string(node.name) + "' takes no children: ignored",
-                      position(index + 1));
-      }
-      try {
-        results_.push_back(leaf(*kind, index, *placement));
-      } catch (const Error& error) {
-        throw error.at(position(index));
-      }
-      return;
-    }
-    PlacementPointer below = children_placement(*kind, index, placement);
-    // Only extrusions come back to their own placement.
-    if (*kind != NodeKind::LinearExtrude && *kind != NodeKind::RotateExtrude) placement = nullptr;
-    frames_.push_back({index, index + 1, node.end, results_.size(), *kind, std::move(placement),
-                       std::move(below)});
-  }
-
-  static bool is_leaf(NodeKind kind) {
-    using enum NodeKind;
-    return kind == Cube || kind == Sphere || kind == Cylinder || kind == Polyhedron ||
-           kind == Square || kind == Circle || kind == Polygon;
-  }
-
-  PlacementPointer children_placement(NodeKind kind, std::uint32_t node,
-                                      const PlacementPointer& placement) {
-    if (kind == NodeKind::LinearExtrude || kind == NodeKind::RotateExtrude) {
-      return std::make_shared<const Placement>();
-    }
+  Context below(NodeKind kind, std::uint32_t node, const Context& placement) {
+    if (is_extrusion(kind)) return identity_;
     if (kind != NodeKind::Multmatrix) return placement;
     const auto map = read_multmatrix(tree_, node, warnings_);
     Placement next;
@@ -267,22 +172,9 @@ class Evaluator {
     return std::make_shared<const Placement>(std::move(next));
   }
 
-  void leave(const Frame& frame) {
-    const std::span<const Outcome> operands(
-        results_.begin() + static_cast<std::ptrdiff_t>(frame.first_result), results_.end());
-    Outcome outcome;
-    try {
-      outcome = inner(frame, operands);
-    } catch (const Error& error) {
-      throw error.at(position(frame.node));
-    }
-    outcome.node = frame.node;
-    results_.resize(frame.first_result);
-    results_.push_back(std::move(outcome));
-  }
-
-  Outcome inner(const Frame& frame, std::span<const Outcome> operands) {
-    switch (frame.kind) {
+  Outcome inner(NodeKind kind, std::uint32_t node, const Context& placement,
+                std::span<const Outcome> operands) {
+    switch (kind) {
       case NodeKind::Difference:
         return boolean(BooleanOperator::Difference, operands);
       case NodeKind::Intersection:
@@ -290,12 +182,43 @@ class Evaluator {
       case NodeKind::Hull:
         return hull_of(unite(operands));
       case NodeKind::LinearExtrude:
-        return linear(frame, operands);
+        return linear(node, *placement, operands);
       case NodeKind::RotateExtrude:
-        return rotate(frame, operands);
+        return rotate(node, *placement, operands);
       default:
         return unite(operands);
     }
+  }
+
+  Outcome leaf(NodeKind kind, std::uint32_t node, const Context& context) {
+    const Placement& placement = *context;
+    Outcome result;
+    using enum NodeKind;
+    if (kind == Square || kind == Circle || kind == Polygon) {
+      result.dimension = 2;
+      result.planar = planar_leaf(kind, node, placement);
+      return result;
+    }
+    result.dimension = 3;
+    if (kind == Polyhedron) {
+      result.solid = polyhedron_leaf(node, placement);
+      return result;
+    }
+    const auto shape = kind == Cube ? cube(node) : kind == Sphere ? sphere(node) : cylinder(node);
+    if (!shape) return result;
+    ++primitives_;
+    count_vertices(shape->polyhedron->vertices.size());
+    if (placement.singular) return result;
+    add_rounding(shape->rounding * stretch(placement.space));
+    result.solid = Solid::primitive(
+        {make_convex_polytope_unchecked(place(placement.space * shape->map, *shape->polyhedron)),
+         origin(node)});
+    return result;
+  }
+
+ private:
+  SourcePosition position(std::uint32_t node) const {
+    return tree_.position(tree_.nodes[node].offset);
   }
 
   Outcome unite(std::span<const Outcome> operands) {
@@ -348,9 +271,10 @@ class Evaluator {
     return combine<PlanarTree>(BooleanOperator::Union, operands);
   }
 
-  Outcome linear(const Frame& frame, std::span<const Outcome> operands) {
+  Outcome linear(std::uint32_t node, const Placement& placement,
+                 std::span<const Outcome> operands) {
     Outcome result;
-    const LinearExtrudeShape shape = read_linear_extrude(tree_, frame.node, warnings_);
+    const LinearExtrudeShape shape = read_linear_extrude(tree_, node, warnings_);
     const auto outline = planar_children(operands);
     if (!outline) return result;
     result.dimension = 3;
@@ -360,13 +284,16 @@ class Evaluator {
     extrusion.upper = shape.center ? Rational(shape.height / 2) : shape.height;
     extrusion.scale = shape.scale;
     const bool same_scale = shape.scale[0] == shape.scale[1];
-    if (shape.twist != 0 || !same_scale) extrusion.levels = levels(shape, *outline);
-    result.solid = placed(linear_extrude(*outline, extrusion), *frame.placement);
+    if (shape.twist != 0 || !same_scale) {
+      extrusion.levels = levels(shape, *outline, placement);
+    }
+    result.solid = placed(linear_extrude(*outline, extrusion), placement);
     return result;
   }
 
   std::vector<LinearExtrusion::Level> levels(const LinearExtrudeShape& shape,
-                                             const PlanarTree& outline) {
+                                             const PlanarTree& outline,
+                                             const Placement& placement) {
     const double twist = nearest_double(shape.twist);
     const PlanarFigure figure = resolve(outline);
     const std::size_t slices = shape.slices ? *shape.slices : slice_count(shape, figure);
@@ -379,7 +306,7 @@ class Evaluator {
     }
     count_vertices(vertices * (slices + 1));
     if (twist != 0) {
-      add_rounding(unit_rounding_bound() * largest * 2 *
+      add_rounding(unit_rounding_bound() * largest * 2 * stretch(placement.space) *
                    std::max({Rational(1), shape.scale[0], shape.scale[1]}));
     }
     std::vector<LinearExtrusion::Level> result;
@@ -421,9 +348,10 @@ class Evaluator {
     return conical_helix_slices(radius_squared, height, twist, scale_x, shape.fineness);
   }
 
-  Outcome rotate(const Frame& frame, std::span<const Outcome> operands) {
+  Outcome rotate(std::uint32_t node, const Placement& placement,
+                 std::span<const Outcome> operands) {
     Outcome result;
-    const RotateExtrudeShape shape = read_rotate_extrude(tree_, frame.node, warnings_);
+    const RotateExtrudeShape shape = read_rotate_extrude(tree_, node, warnings_);
     const auto outline = planar_children(operands);
     if (!outline || shape.angle == 0) return result;
     result.dimension = 3;
@@ -446,9 +374,8 @@ class Evaluator {
     }
     const auto directions = ring_directions(shape, largest - least, least < 0);
     count_vertices(vertices * directions.size());
-    add_rounding(unit_rounding_bound() * (largest - least) * stretch(frame.placement->space));
-    result.solid =
-        placed(rotate_extrude(*outline, directions, shape.angle == 360), *frame.placement);
+    add_rounding(unit_rounding_bound() * (largest - least) * stretch(placement.space));
+    result.solid = placed(rotate_extrude(*outline, directions, shape.angle == 360), placement);
     return result;
   }
 
@@ -503,32 +430,6 @@ class Evaluator {
     if (placement.singular || solid.is_empty()) return Solid::empty();
     if (placement.space == AffineMap::identity()) return solid;
     return apply(placement.space, solid);
-  }
-
-  Outcome leaf(NodeKind kind, std::uint32_t node, const Placement& placement) {
-    Outcome result;
-    result.node = node;
-    using enum NodeKind;
-    if (kind == Square || kind == Circle || kind == Polygon) {
-      result.dimension = 2;
-      result.planar = planar_leaf(kind, node, placement);
-      return result;
-    }
-    result.dimension = 3;
-    if (kind == Polyhedron) {
-      result.solid = polyhedron_leaf(node, placement);
-      return result;
-    }
-    const auto shape = kind == Cube ? cube(node) : kind == Sphere ? sphere(node) : cylinder(node);
-    if (!shape) return result;
-    ++primitives_;
-    count_vertices(shape->polyhedron->vertices.size());
-    if (placement.singular) return result;
-    add_rounding(shape->rounding * stretch(placement.space));
-    result.solid = Solid::primitive(
-        {make_convex_polytope_unchecked(place(placement.space * shape->map, *shape->polyhedron)),
-         origin(node)});
-    return result;
   }
 
   std::string origin(std::uint32_t node) const {
@@ -662,11 +563,9 @@ class Evaluator {
   static constexpr std::size_t model_vertex_limit = 10'000'000;
 
   const SyntaxTree& tree_;
-  const ReadOptions& options_;
-  Warnings warnings_;
+  Warnings& warnings_;
+  const Context identity_ = std::make_shared<const Placement>();
   ShapeCache shapes_;
-  std::vector<Frame> frames_;
-  std::vector<Outcome> results_;
   std::size_t primitives_ = 0;
   std::size_t vertices_ = 0;
   Rational rounding_bound_{0};
@@ -675,7 +574,12 @@ class Evaluator {
 }  // namespace
 
 Model evaluate_as_written(const SyntaxTree& tree, const ReadOptions& options) {
-  return Evaluator(tree, options).run();
+  Warnings warnings;
+  ExactBuilder builder(tree, warnings);
+  NodeWalk<ExactBuilder> walk(tree, builder, warnings, options.progress);
+  Model model = builder.finish(walk.run());
+  model.warnings = std::move(warnings).take();
+  return model;
 }
 
 }  // namespace exactcsg::io::openscad

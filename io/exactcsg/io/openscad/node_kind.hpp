@@ -29,6 +29,17 @@ enum class NodeKind : std::uint8_t {
   Unsupported,  // known to OpenSCAD, refused by name here (docs/limits.md)
 };
 
+constexpr bool is_leaf(NodeKind kind) {
+  using enum NodeKind;
+  return kind == Cube || kind == Sphere || kind == Cylinder || kind == Polyhedron ||
+         kind == Square || kind == Circle || kind == Polygon;
+}
+
+// Their children are planar, in a frame of their own.
+constexpr bool is_extrusion(NodeKind kind) {
+  return kind == NodeKind::LinearExtrude || kind == NodeKind::RotateExtrude;
+}
+
 // nullopt: no release of OpenSCAD writes such a node.
 std::optional<NodeKind> find_node_kind(std::string_view name);
 
