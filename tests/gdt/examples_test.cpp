@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The examples of docs/operators.md. Expected values follow from the definitions of the sets.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "exactcsg/csg/flat_tree.hpp"
+#include "exactcsg/csg/prune.hpp"
+#include "exactcsg/csg/traverse.hpp"
+#include "exactcsg/gdt/create.hpp"
+#include "exactcsg/gdt/traverse.hpp"
+
+namespace exactcsg {
+namespace {
+
+struct Interval {
+  double from, to;
+};
+using Solid = csg::Tree<Interval, csg::BooleanOperator>;
+const Solid solid = csg::subtract(Solid::primitive({0, 10}), Solid::primitive({3, 4}));
+
+TEST(Examples, ClassifyAPoint) {
+  const auto inside = [](const Interval& i, double x) {
+    return i.from <= x && x <= i.to ? csg::Membership::In : csg::Membership::Out;
+  };
+  const auto class_of = [&](double x) {
+    return csg::traverse(solid, x, inside, csg::combine,
+                         csg::FullEmptyResult{csg::Membership::In, csg::Membership::Out},
+                         csg::absorbs);
+  };
+  EXPECT_EQ(class_of(3.5), csg::Membership::Out);
+  EXPECT_EQ(class_of(5), csg::Membership::In);
+  EXPECT_EQ(class_of(11), csg::Membership::Out);
+}
+
+TEST(Examples, LocaliseASolid) {
+  const auto in_region = [](const Interval& i) {  // the region [5, 6]
+    if (i.to < 5 || 6 < i.from) return csg::Membership::Out;
+    return i.from <= 5 && 6 <= i.to ? csg::Membership::In : csg::Membership::Unknown;
+  };
+  EXPECT_TRUE(csg::prune(solid, in_region).is_full());
+}
+
+TEST(Examples, PruneInAnInnerLoop) {
+  using Flat = csg::FlatTree<std::uint32_t, csg::BooleanOperator>;
+  std::uint32_t count = 0;
+  const Flat flat = csg::flatten(solid, [&](const Interval&) { return count++; });
+  std::vector<csg::Membership> known(count, csg::Membership::Unknown);
+  known[1] = csg::Membership::Out;
+  Flat local;
+  csg::PruneScratch<Flat> scratch;
+  csg::prune_into(
+      flat, [&](std::uint32_t p) { return known[p]; }, local, scratch);
+  ASSERT_TRUE(local.is_primitive());
+  EXPECT_EQ(local.primitive(), 0U);
+}
+
+TEST(Examples, DivideAndConquer) {
+  using Numbers = std::vector<int>;
+  const auto sorted = skeleton::divacon(
+      Numbers{3, 1, 2}, [](const Numbers& n) { return n.size() <= 1; },
+      [](const Numbers& n) {
+        const auto middle = n.begin() + static_cast<std::ptrdiff_t>(n.size() / 2);
+        return std::array{Numbers(n.begin(), middle), Numbers(middle, n.end())};
+      },
+      [](Numbers&& n) { return std::move(n); },
+      [](std::span<Numbers> halves) {
+        Numbers all(halves[0].size() + halves[1].size());
+        std::ranges::merge(halves[0], halves[1], all.begin());
+        return all;
+      },
+      skeleton::ParallelExecutor<>(2));
+  EXPECT_EQ(sorted, (Numbers{1, 2, 3}));
+}
+
+TEST(Examples, KeepADivision) {
+  struct Cell {
+    int from, to, cut = 0;
+  };
+  const auto tree = gdt::create(
+      Cell{0, 100}, [](const Cell& c) { return c.to - c.from == 1; },
+      [](Cell& c) {
+        c.cut = (c.from + c.to) / 2;
+        return std::array{Cell{c.from, c.cut}, Cell{c.cut, c.to}};
+      },
+      [](const Cell& c) { return c.from; }, gdt::unlimited_depth, skeleton::SequentialExecutor{},
+      [](const Cell& c) { return c.cut; });
+  EXPECT_EQ(gdt::descend(tree, [](int cut) { return 42 < cut ? 0 : 1; }), 42);
+}
+
+}  // namespace
+}  // namespace exactcsg
