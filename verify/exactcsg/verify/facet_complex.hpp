@@ -14,6 +14,7 @@
 
 #include "exactcsg/number/point.hpp"
 #include "exactcsg/solid/boundary.hpp"
+#include "exactcsg/verify/exact_sums.hpp"
 #include "exactcsg/verify/report.hpp"
 
 namespace exactcsg::verify {
@@ -41,15 +42,14 @@ struct CanonicalSets {
   std::vector<Plane> planes;
 };
 
-Rational volume(const FacetComplex& complex);
+// Divergence sums over the oracle's cycles, and over our loops.
+VolumeSum volume_sum(const FacetComplex& complex);
+VolumeSum volume_sum(const Boundary& boundary);
 
 // LAW complex.1  the sets depend on the regularised solid alone: coplanar facets are joined,
 // vertices inside a straight edge dropped.
 CanonicalSets canonical_sets(const FacetComplex& complex);
 CanonicalSets canonical_sets(const Boundary& boundary);
-
-// The volume of our boundary as a plain divergence sum over its loops, for comparison.
-Rational divergence_volume(const Boundary& boundary);
 
 // "volume", "vertices", "edges", "planes", each named "<label>: ..." and held against equality.
 std::vector<Check> compare_exactly(const Boundary& boundary, const FacetComplex& oracle,

@@ -25,9 +25,6 @@ std::vector<Point3> sample_points(const Boundary& boundary, std::size_t count, s
 std::vector<Check> check_sampling(const Solid& solid, const Boundary& boundary,
                                   std::span<const Point3> points, std::span<const PointClass> nef);
 
-// On, In or Out by the boundary's faces alone: on a face, or by parity along an exact ray.
-PointClass classify_by_boundary(const Boundary& boundary, const Point3& point);
-
 // v(A+B) + v(A*B) = v(A) + v(B), v(A-B) + v(A*B) = v(A), idempotence, absorption, De Morgan, A - A
 // empty, on pairs of random bounded subtrees with at most `primitive_limit` primitives each.
 struct LawOptions {

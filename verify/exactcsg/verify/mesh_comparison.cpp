@@ -1,0 +1,567 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "exactcsg/verify/mesh_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_map>
+
+#include "exactcsg/number/enclosure.hpp"
+#include "exactcsg/solid/measures.hpp"
+#include "exactcsg/support/error.hpp"
+#include "exactcsg/verify/exact_sums.hpp"
+#include "exactcsg/verify/facet_complex.hpp"
+#include "exactcsg/verify/welded_mesh.hpp"
+
+namespace exactcsg::verify {
+namespace {
+
+constexpr int working_bits = 160;
+constexpr int shown_digits = 12;
+
+std::string short_number(double value) { return fmt::format("{:.3g}", value); }
+
+std::string point_text(const PlainVector& p) {
+  return fmt::format("({:.17g}, {:.17g}, {:.17g})", p[0], p[1], p[2]);
+}
+
+Check named(const std::string& label, const char* what) {
+  Check check;
+  check.name = label + ": " + what;
+  return check;
+}
+
+Mismatch edge_mismatch(const std::string& text, const PlainVector& a, const PlainVector& b) {
+  return {fmt::format("{}: {} - {}", text, point_text(a), point_text(b)), {a, b}};
+}
+
+Mismatch vertex_mismatch(const std::string& text, const PlainVector& p) {
+  return {fmt::format("{}: {}", text, point_text(p)), {p}};
+}
+
+// ---- finding points near a point ---------------------------------------------------------------
+
+class PointGrid {
+ public:
+  PointGrid(const std::vector<PlainVector>& points, double least_cell) {
+    PlainVector lower{0, 0, 0};
+    PlainVector upper{0, 0, 0};
+    if (!points.empty()) lower = upper = points.front();
+    for (const PlainVector& p : points) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        lower[k] = std::min(lower[k], p[k]);
+        upper[k] = std::max(upper[k], p[k]);
+      }
+    }
+    const double extent = length(upper - lower);
+    cell_ = std::max({extent / std::cbrt(static_cast<double>(points.size()) + 1), least_cell,
+                      extent * 1e-9, 1e-300});
+    origin_ = lower;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      cells_[key(index_of(points[i]))].push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  // Calls visit(index) for every point within `reach` of p in each coordinate, and for some others.
+  template <class Visit>
+  void near(const PlainVector& p, double reach, Visit visit) const {
+    const Index low = index_of(p - PlainVector{reach, reach, reach});
+    const Index high = index_of(p + PlainVector{reach, reach, reach});
+    for (std::int64_t x = low[0]; x <= high[0]; ++x) {
+      for (std::int64_t y = low[1]; y <= high[1]; ++y) {
+        for (std::int64_t z = low[2]; z <= high[2]; ++z) {
+          const auto found = cells_.find(key({x, y, z}));
+          if (found == cells_.end()) continue;
+          for (const std::uint32_t i : found->second) visit(i);
+        }
+      }
+    }
+  }
+
+ private:
+  using Index = std::array<std::int64_t, 3>;
+  Index index_of(const PlainVector& p) const {
+    Index index{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      constexpr double far = 1e12;  // far away is outside all cells; keep the conversion defined
+      index[k] =
+          static_cast<std::int64_t>(std::floor(std::clamp((p[k] - origin_[k]) / cell_, -far, far)));
+    }
+    return index;
+  }
+  static std::uint64_t key(const Index& i) {
+    return static_cast<std::uint64_t>(i[0]) * 0x9E3779B97F4A7C15U ^
+           static_cast<std::uint64_t>(i[1]) * 0xC2B2AE3D27D4EB4FU ^
+           static_cast<std::uint64_t>(i[2]) * 0x165667B19E3779F9U;
+  }
+  double cell_ = 1;
+  PlainVector origin_{};
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+// ---- our side -----------------------------------------------------------------------------------
+
+struct Ours {
+  const Boundary& boundary;
+  std::vector<PlainVector> positions;
+  std::vector<std::vector<std::uint32_t>> edges_at;  // of each vertex
+  std::set<std::uint32_t> crowded_edges;             // edges with more than two faces
+
+  explicit Ours(const Boundary& b) : boundary(b), edges_at(b.vertices.size()) {
+    for (const Point3& p : b.vertices) positions.push_back(approximate(p));
+    std::map<MeshEdge, std::uint32_t> index;
+    std::vector<std::uint32_t> uses(b.edges.size(), 0);
+    for (std::size_t e = 0; e < b.edges.size(); ++e) {
+      const auto id = static_cast<std::uint32_t>(e);
+      edges_at[b.edges[e].from].push_back(id);
+      edges_at[b.edges[e].to].push_back(id);
+      index[{b.edges[e].from, b.edges[e].to}] = id;
+    }
+    for (const BoundaryFace& face : b.faces) {
+      for (const auto& loop : face.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+          const auto [u, v] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+          const auto found = index.find({u, v});
+          if (found != index.end() && ++uses[found->second] > 2) {
+            crowded_edges.insert(found->second);
+          }
+        }
+      }
+    }
+  }
+  const PlainVector& from(std::uint32_t edge) const { return positions[boundary.edges[edge].from]; }
+  const PlainVector& to(std::uint32_t edge) const { return positions[boundary.edges[edge].to]; }
+};
+
+// Is p within `reach` of the face: of its plane, and its projection inside the loops?
+bool near_face(const Ours& ours, const BoundaryFace& face, const PlainVector& p, double reach) {
+  const Plane& plane = ours.boundary.planes[face.plane];
+  const PlainVector raw{plane.a.get_d(), plane.b.get_d(), plane.c.get_d()};
+  const double size = length(raw);
+  if (!(size > 0) || !std::isfinite(size) || face.loops.empty()) return false;
+  const PlainVector normal = (1 / size) * raw;
+  const PlainVector& origin = ours.positions[face.loops.front().front()];
+  if (std::fabs(dot(normal, p - origin)) > reach) return false;
+  std::size_t drop = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (std::fabs(normal[k]) > std::fabs(normal[drop])) drop = k;
+  }
+  const std::size_t u = (drop + 1) % 3;
+  const std::size_t v = (drop + 2) % 3;
+  bool inside = false;
+  for (const auto& loop : face.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const PlainVector& a = ours.positions[loop[i]];
+      const PlainVector& b = ours.positions[loop[(i + 1) % loop.size()]];
+      if ((a[v] > p[v]) == (b[v] > p[v])) continue;
+      if (p[u] < a[u] + (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v])) inside = !inside;
+    }
+  }
+  return inside;
+}
+
+// ---- the comparison -----------------------------------------------------------------------------
+
+// Which vertices of the one side stand for which of the other.
+struct Matching {
+  std::vector<std::vector<std::uint32_t>> ours_of;    // of each vertex of the file
+  std::vector<std::vector<std::uint32_t>> theirs_of;  // of each vertex of the boundary
+  std::vector<std::vector<std::uint32_t>> edges_of;   // our edges that a vertex of the file lies on
+  double largest_displacement = 0;
+};
+
+bool within_rounding(const Point3& exact, const Point3& rounded,
+                     const std::array<double, 3>& rounding) {
+  return abs(exact.x - rounded.x) <= rational_of(rounding[0]) &&
+         abs(exact.y - rounded.y) <= rational_of(rounding[1]) &&
+         abs(exact.z - rounded.z) <= rational_of(rounding[2]);
+}
+
+Matching match_vertices(const Ours& ours, const WeldedMesh& mesh) {
+  Matching matching;
+  matching.ours_of.resize(mesh.points.size());
+  matching.edges_of.resize(mesh.points.size());
+  matching.theirs_of.resize(ours.positions.size());
+  for (const double t : mesh.displacement) {
+    matching.largest_displacement = std::max(matching.largest_displacement, t);
+  }
+  const PointGrid grid(ours.positions, 4 * matching.largest_displacement);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const double reach = 2 * mesh.displacement[v];
+    grid.near(mesh.positions[v], reach, [&](std::uint32_t i) {
+      if (length(ours.positions[i] - mesh.positions[v]) > reach) return;
+      if (!within_rounding(ours.boundary.vertices[i], mesh.points[v], mesh.rounding[v])) return;
+      matching.ours_of[v].push_back(i);
+      matching.theirs_of[i].push_back(static_cast<std::uint32_t>(v));
+    });
+    for (const std::uint32_t i : matching.ours_of[v]) {
+      matching.edges_of[v].insert(matching.edges_of[v].end(), ours.edges_at[i].begin(),
+                                  ours.edges_at[i].end());
+    }
+  }
+  return matching;
+}
+
+Check check_closed(const std::string& label, const WeldedMesh& mesh) {
+  Check check = named(label, "closed");
+  std::size_t open = 0;
+  for (const auto& [edge, use] : mesh.edges) {
+    if (use.count() % 2 == 0) continue;
+    ++open;
+    add_mismatch(check, edge_mismatch(fmt::format("open edge, {} facets", use.count()),
+                                      mesh.positions[edge[0]], mesh.positions[edge[1]]));
+  }
+  check.ours = "0 open edges";
+  check.theirs = fmt::format("{} open edges", open);
+  check.bound = "0";
+  check.explanation = fmt::format(
+      "{} facets, {} without area dropped, {} T-junctions closed within the format's rounding",
+      mesh.facets.size(), mesh.dropped_facets, mesh.junctions);
+  if (mesh.facets.empty()) {
+    check.verdict = Verdict::Failed;
+    check.explanation = "the file has no facets";
+  }
+  return check;
+}
+
+Check check_oriented(const std::string& label, const WeldedMesh& mesh, bool inside_out) {
+  Check check = named(label, "oriented");
+  std::size_t wrong = 0;
+  for (const auto& [edge, use] : mesh.edges) {
+    if (use.count() % 2 != 0 || use.forward.size() == use.backward.size()) continue;
+    ++wrong;
+    add_mismatch(check, edge_mismatch(fmt::format("facets turn against each other ({} and {})",
+                                                  use.forward.size(), use.backward.size()),
+                                      mesh.positions[edge[0]], mesh.positions[edge[1]]));
+  }
+  check.ours = "outward";
+  check.theirs = inside_out ? "inside out" : wrong == 0 ? "outward" : "mixed";
+  check.bound = "0";
+  if (inside_out) {
+    check.verdict = Verdict::Failed;
+    check.explanation = "the volume is negative: the mesh is inside out";
+  }
+  return check;
+}
+
+bool along_segment(const PlainVector& a, const PlainVector& b, const PlainVector& p, double reach) {
+  return nearest_on_segment(a, b, p).distance <= reach;
+}
+
+Check check_manifold(const std::string& label, const Ours& ours, const WeldedMesh& mesh,
+                     const Matching& matching) {
+  Check check = named(label, "manifold");
+  std::size_t crowded = 0;
+  std::size_t allowed = 0;
+  for (const auto& [edge, use] : mesh.edges) {
+    if (use.count() <= 2) continue;
+    ++crowded;
+    const auto meant = [&](std::uint32_t e) {
+      const double reach = 2 * std::max(mesh.displacement[edge[0]], mesh.displacement[edge[1]]);
+      return along_segment(ours.from(e), ours.to(e), mesh.positions[edge[0]], reach) &&
+             along_segment(ours.from(e), ours.to(e), mesh.positions[edge[1]], reach);
+    };
+    const bool welded =
+        matching.ours_of[edge[0]].size() > 1 || matching.ours_of[edge[1]].size() > 1;
+    if (welded || std::any_of(ours.crowded_edges.begin(), ours.crowded_edges.end(), meant)) {
+      ++allowed;
+      continue;
+    }
+    add_mismatch(check, edge_mismatch(fmt::format("{} facets at an edge", use.count()),
+                                      mesh.positions[edge[0]], mesh.positions[edge[1]]));
+  }
+  check.ours = fmt::format("{} edges of 4+ faces", ours.crowded_edges.size());
+  check.theirs = fmt::format("{} edges of 3+ facets", crowded);
+  check.bound = "0 besides ours";
+  if (allowed > 0) {
+    check.explanation = fmt::format(
+        "{} edges of more than two facets are the model's own or come from welded vertices",
+        allowed);
+  }
+  return check;
+}
+
+struct Measures {
+  double area = 0;        // of the facets
+  double area_bound = 0;  // of its difference, see the header
+  double volume_bound = 0;
+};
+
+PlainVector area_vector(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
+  const PlainVector& origin = mesh.positions[facet[0]];
+  PlainVector sum{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < facet.size(); ++i) {
+    sum = sum + cross(mesh.positions[facet[i]] - origin, mesh.positions[facet[i + 1]] - origin);
+  }
+  return 0.5 * sum;
+}
+
+double perimeter(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
+  double sum = 0;
+  for (std::size_t i = 0; i < facet.size(); ++i) {
+    sum += length(mesh.positions[facet[(i + 1) % facet.size()]] - mesh.positions[facet[i]]);
+  }
+  return sum;
+}
+
+double largest_displacement(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
+  double t = 0;
+  for (const std::uint32_t v : facet) t = std::max(t, mesh.displacement[v]);
+  return t;
+}
+
+// What vertices displaced by at most t can add to or take from the area vector of a polygon: each
+// displacement d_i contributes d_i x (p_(i+1) - p_(i-1)) / 2 and products of two displacements.
+double area_slack(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
+  const double t = largest_displacement(mesh, facet);
+  return t * perimeter(mesh, facet) + static_cast<double>(facet.size()) * t * t;
+}
+
+Measures measure(const WeldedMesh& mesh) {
+  Measures result;
+  for (const auto& facet : mesh.facets) {
+    result.area += length(area_vector(mesh, facet));
+    result.area_bound += area_slack(mesh, facet);
+    const double t = largest_displacement(mesh, facet);
+    const PlainVector& origin = mesh.positions[facet[0]];
+    for (std::size_t i = 1; i + 1 < facet.size(); ++i) {
+      const PlainVector e = mesh.positions[facet[i]] - origin;
+      const PlainVector f = mesh.positions[facet[i + 1]] - origin;
+      result.volume_bound +=
+          t * (0.5 * length(cross(e, f)) + (length(e) + length(f)) * t + 2 * t * t);
+    }
+  }
+  // The sums themselves are rounded; a relative 1e-12 covers a million additions.
+  result.area_bound += 1e-12 * result.area;
+  result.volume_bound *= 1 + 1e-9;
+  return result;
+}
+
+struct FileVolume {
+  Rational exact{0};
+  bool known = false;
+};
+
+FileVolume file_volume(const WeldedMesh& mesh) {
+  std::vector<Cycles> cycles;
+  cycles.reserve(mesh.facets.size());
+  for (const auto& facet : mesh.facets) cycles.push_back({facet});
+  std::vector<OrientedFace> faces;
+  for (const Cycles& c : cycles) faces.push_back({&c, 1});
+  const VolumeSum sum = sum_volume(mesh.points, faces);
+  if (sum.exact) return {*sum.exact, true};
+  return {parse_rational(sum.decimal).value_or(Rational(0)), true};
+}
+
+Check compare_figure(const std::string& label, const char* what, const Enclosure& ours,
+                     const Rational& theirs, double bound) {
+  Check check = named(label, what);
+  const Rational middle = (ours.lower + ours.upper) / 2;
+  const Rational width = ours.upper - ours.lower;
+  const Rational difference = theirs - middle;
+  check.ours = to_decimal(middle, shown_digits);
+  check.theirs = to_decimal(theirs, shown_digits);
+  check.difference = to_decimal(difference, 3);
+  check.bound = short_number(bound);
+  if (abs(difference) > rational_of(bound) + width) {
+    check.verdict = Verdict::Failed;
+    check.explanation =
+        fmt::format("the {} differs by {}, more than rounding in this format can explain ({})",
+                    what, check.difference, check.bound);
+  } else {
+    check.explanation = "bound: what displacing every vertex by the format's rounding can change";
+  }
+  return check;
+}
+
+Check check_vertices(const std::string& label, const Ours& ours, const WeldedMesh& mesh,
+                     Matching& matching) {
+  Check check = named(label, "vertices");
+  check.ours = std::to_string(ours.positions.size());
+  check.theirs = std::to_string(mesh.points.size());
+  check.bound = short_number(matching.largest_displacement);
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < ours.positions.size(); ++i) {
+    if (!matching.theirs_of[i].empty()) continue;
+    ++missing;
+    add_mismatch(check, vertex_mismatch("vertex of the model that the file does not have",
+                                        ours.positions[i]));
+  }
+  std::set<std::uint32_t> used;
+  for (const auto& facet : mesh.facets) used.insert(facet.begin(), facet.end());
+  constexpr std::size_t enough = 2000;  // beyond, the file is another solid: do not search for each
+  std::size_t stray = 0;
+  std::size_t searched = 0;
+  for (const std::uint32_t v : used) {
+    if (!matching.ours_of[v].empty()) continue;
+    const double reach = 2 * mesh.displacement[v];
+    bool explained = false;
+    if (++searched <= enough || missing + stray == 0) {
+      for (std::uint32_t e = 0; e < ours.boundary.edges.size(); ++e) {
+        if (along_segment(ours.from(e), ours.to(e), mesh.positions[v], reach)) {
+          matching.edges_of[v].push_back(e);
+          explained = true;
+        }
+      }
+      for (std::size_t f = 0; f < ours.boundary.faces.size() && !explained; ++f) {
+        explained = near_face(ours, ours.boundary.faces[f], mesh.positions[v], reach);
+      }
+    }
+    if (explained) continue;
+    ++stray;
+    add_mismatch(check, vertex_mismatch("vertex of the file that is not on the model's boundary",
+                                        mesh.positions[v]));
+  }
+  check.difference = std::to_string(missing + stray);
+  return check;
+}
+
+// Can a path of edges be walked from one of `starts` to one of `ends`, all within `reach` of the
+// segment?
+template <class Neighbours, class Position>
+bool walk_along(const PlainVector& a, const PlainVector& b, double reach,
+                const std::vector<std::uint32_t>& starts, const std::vector<std::uint32_t>& ends,
+                Neighbours neighbours, Position position) {
+  const std::set<std::uint32_t> goals(ends.begin(), ends.end());
+  std::vector<std::uint32_t> pending(starts);
+  std::set<std::uint32_t> seen(starts.begin(), starts.end());
+  while (!pending.empty()) {
+    const std::uint32_t v = pending.back();
+    pending.pop_back();
+    if (goals.count(v) != 0) return true;
+    neighbours(v, [&](std::uint32_t w) {
+      if (along_segment(a, b, position(w), reach) && seen.insert(w).second) pending.push_back(w);
+    });
+  }
+  return false;
+}
+
+// True if no displacement within the rounding can make the facets at the edge coplanar.
+bool certainly_sharp(const WeldedMesh& mesh, const EdgeUse& use) {
+  std::vector<std::uint32_t> facets(use.forward);
+  facets.insert(facets.end(), use.backward.begin(), use.backward.end());
+  const auto uncertainty = [&](const PlainVector& area, std::uint32_t f) {
+    const double ratio = area_slack(mesh, mesh.facets[f]) / length(area);
+    return ratio < 0.5 ? std::asin(ratio) : 4.0;
+  };
+  for (std::size_t i = 0; i < facets.size(); ++i) {
+    const PlainVector a = area_vector(mesh, mesh.facets[facets[i]]);
+    if (!(length(a) > 0)) continue;
+    for (std::size_t j = i + 1; j < facets.size(); ++j) {
+      const PlainVector b = area_vector(mesh, mesh.facets[facets[j]]);
+      if (!(length(b) > 0)) continue;
+      const double angle = std::atan2(length(cross(a, b)), dot(a, b));
+      if (angle > uncertainty(a, facets[i]) + uncertainty(b, facets[j]) + 1e-12) return true;
+    }
+  }
+  return false;
+}
+
+bool shares_edge(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  return std::any_of(a.begin(), a.end(),
+                     [&](std::uint32_t e) { return std::find(b.begin(), b.end(), e) != b.end(); });
+}
+
+Check check_edges(const std::string& label, const Ours& ours, const WeldedMesh& mesh,
+                  const Matching& matching) {
+  Check check = named(label, "edges");
+  std::vector<std::vector<std::uint32_t>> neighbours(mesh.points.size());
+  for (const auto& [edge, use] : mesh.edges) {
+    neighbours[edge[0]].push_back(edge[1]);
+    neighbours[edge[1]].push_back(edge[0]);
+  }
+  const double reach = 2 * matching.largest_displacement;
+  std::vector<Mismatch> missing;
+  for (std::uint32_t e = 0; e < ours.boundary.edges.size(); ++e) {
+    const auto& starts = matching.theirs_of[ours.boundary.edges[e].from];
+    const auto& ends = matching.theirs_of[ours.boundary.edges[e].to];
+    const bool found = walk_along(
+        ours.from(e), ours.to(e), reach, starts, ends,
+        [&](std::uint32_t v, auto visit) {
+          for (const std::uint32_t w : neighbours[v]) visit(w);
+        },
+        [&](std::uint32_t v) { return mesh.positions[v]; });
+    if (!found) {
+      missing.push_back(
+          edge_mismatch("edge of the model that the file does not have", ours.from(e), ours.to(e)));
+    }
+  }
+  std::vector<Mismatch> stray;
+  std::size_t sharp = 0;
+  for (const auto& [edge, use] : mesh.edges) {
+    if (!certainly_sharp(mesh, use)) continue;
+    ++sharp;
+    const PlainVector& a = mesh.positions[edge[0]];
+    const PlainVector& b = mesh.positions[edge[1]];
+    if (shares_edge(matching.edges_of[edge[0]], matching.edges_of[edge[1]])) continue;
+    const bool found = walk_along(
+        a, b, reach, matching.ours_of[edge[0]], matching.ours_of[edge[1]],
+        [&](std::uint32_t v, auto visit) {
+          for (const std::uint32_t e : ours.edges_at[v]) {
+            visit(ours.boundary.edges[e].from == v ? ours.boundary.edges[e].to
+                                                   : ours.boundary.edges[e].from);
+          }
+        },
+        [&](std::uint32_t v) { return ours.positions[v]; });
+    if (!found) {
+      stray.push_back(edge_mismatch("sharp edge of the file that the model does not have", a, b));
+    }
+  }
+  check.ours = std::to_string(ours.boundary.edges.size());
+  check.theirs = fmt::format("{} sharp", sharp);
+  check.difference = std::to_string(missing.size() + stray.size());
+  check.bound = short_number(reach);
+  check.explanation =
+      "edges between facets that rounding may have made coplanar are not required to match";
+  for (std::size_t i = 0; i < std::max(missing.size(), stray.size()); ++i) {
+    if (i < missing.size()) add_mismatch(check, missing[i]);
+    if (i < stray.size()) add_mismatch(check, stray[i]);
+  }
+  return check;
+}
+
+}  // namespace
+
+std::vector<Check> compare_with_soup(const Boundary& boundary, const io::PolygonSoup& soup,
+                                     const MeshComparisonOptions& options) {
+  const std::string label = options.label.empty() ? "against" : options.label;
+  const WeldedMesh mesh = weld(soup, nearest_double(options.model_rounding));
+  const Ours ours(boundary);
+  Matching matching = match_vertices(ours, mesh);
+  const Measures measures = measure(mesh);
+  const FileVolume volume = file_volume(mesh);
+
+  std::vector<Check> checks;
+  checks.push_back(check_closed(label, mesh));
+  checks.push_back(check_manifold(label, ours, mesh, matching));
+  checks.push_back(check_oriented(label, mesh, volume.exact < 0));
+  checks.push_back(compare_figure(label, "volume", enclose_volume(boundary, working_bits),
+                                  volume.exact, measures.volume_bound));
+  checks.push_back(compare_figure(label, "area", enclose_area(boundary, working_bits),
+                                  rational_of(measures.area), measures.area_bound));
+  checks.push_back(check_vertices(label, ours, mesh, matching));
+  checks.push_back(check_edges(label, ours, mesh, matching));
+  for (Check& check : checks) check.oracle = options.oracle;
+  return checks;
+}
+
+std::vector<Check> compare_with_mesh_file(const Boundary& boundary,
+                                          const std::filesystem::path& file,
+                                          const MeshComparisonOptions& options) {
+  MeshComparisonOptions named_options = options;
+  if (named_options.label.empty()) named_options.label = file.filename().string();
+  try {
+    return compare_with_soup(boundary, io::read_polygon_soup(file), named_options);
+  } catch (const Error& error) {
+    if (error.id() == ErrorId::Cancelled || error.id() == ErrorId::TimeLimit) throw;
+    Check check = named(named_options.label, "readable");
+    check.oracle = options.oracle;
+    check.verdict = Verdict::Failed;
+    check.explanation = error.what();
+    return {check};
+  }
+}
+
+}  // namespace exactcsg::verify
