@@ -169,28 +169,31 @@ class Merger {
   }
 
   std::vector<LineNumber> number_lines(const std::vector<PieceEdge>& edges) {
-    std::vector<std::uint32_t> order(edges.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto planes_of = [&](std::uint32_t i) {
-      return std::minmax(edges[i].plane.plane, edges[i].side_plane);
+    struct Keyed {
+      PlaneRef first;
+      PlaneRef second;
+      std::uint32_t edge;
     };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const auto p = planes_of(a);
-      const auto q = planes_of(b);
-      if (p.first != q.first) return p.first < q.first;
-      if (p.second != q.second) return p.second < q.second;
-      return a < b;
+    std::vector<Keyed> order;
+    order.reserve(edges.size());
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+      const auto [first, second] = std::minmax(edges[i].plane.plane, edges[i].side_plane);
+      order.push_back({first, second, i});
+    }
+    std::sort(order.begin(), order.end(), [](const Keyed& a, const Keyed& b) {
+      if (a.first != b.first) return a.first < b.first;
+      if (a.second != b.second) return a.second < b.second;
+      return a.edge < b.edge;
     });
     std::vector<LineSample> samples;
     std::vector<std::uint32_t> sample_of_edge(edges.size());
-    for (const std::uint32_t i : order) {
-      const auto planes = planes_of(i);
-      if (samples.empty() || samples.back().first != planes.first ||
-          samples.back().second != planes.second) {
-        samples.push_back(
-            {planes.first, planes.second, &vertices_[edges[i].from], &vertices_[edges[i].to]});
+    for (const Keyed& keyed : order) {
+      if (samples.empty() || samples.back().first != keyed.first ||
+          samples.back().second != keyed.second) {
+        const PieceEdge& edge = edges[keyed.edge];
+        samples.push_back({keyed.first, keyed.second, &vertices_[edge.from], &vertices_[edge.to]});
       }
-      sample_of_edge[i] = static_cast<std::uint32_t>(samples.size() - 1);
+      sample_of_edge[keyed.edge] = static_cast<std::uint32_t>(samples.size() - 1);
     }
     InternedLines interned = intern(geometry_, samples, statistics_);
     lines_ = std::move(interned.distinct);
@@ -218,19 +221,31 @@ class Merger {
   }
 
   void add_up(const std::vector<PieceEdge>& edges, const std::vector<LineNumber>& line_of_edge) {
-    std::vector<std::uint32_t> order(edges.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      if (line_of_edge[a] != line_of_edge[b]) return line_of_edge[a] < line_of_edge[b];
-      if (edges[a].plane != edges[b].plane) return edges[a].plane < edges[b].plane;
-      return a < b;
+    struct Keyed {
+      LineNumber line;
+      std::uint32_t edge;
+      OrientedPlaneRef plane;
+    };
+    std::vector<Keyed> keyed;
+    keyed.reserve(edges.size());
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+      keyed.push_back({line_of_edge[i], i, edges[i].plane});
+    }
+    std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
+      if (a.line != b.line) return a.line < b.line;
+      if (a.plane != b.plane) return a.plane < b.plane;
+      return a.edge < b.edge;
     });
+    std::vector<std::uint32_t> order;
+    order.reserve(keyed.size());
+    for (const Keyed& k : keyed) order.push_back(k.edge);
     content_.resize(lines_.size());
     std::vector<std::uint32_t> rank(vertices_.size(), none);
+    std::vector<VertexNumber> stations;
     for (std::size_t begin = 0; begin < order.size();) {
       const LineNumber line = line_of_edge[order[begin]];
       std::size_t end = begin;
-      std::vector<VertexNumber> stations;
+      stations.clear();
       for (; end < order.size() && line_of_edge[order[end]] == line; ++end) {
         stations.push_back(edges[order[end]].from);
         stations.push_back(edges[order[end]].to);

@@ -75,6 +75,9 @@ class LoopLinker {
         [](const FaceEdge& candidate, std::uint32_t vertex) { return candidate.from < vertex; });
     if (first == edges_.end() || first->from != at) unbalanced();
     auto best = first;
+    if (std::next(first) == edges_.end() || std::next(first)->from != at) {
+      return static_cast<std::size_t>(best - edges_.begin());
+    }
     const Vector3 back = vertices_[edges_[edge].from] - vertices_[at];
     for (auto it = std::next(first); it != edges_.end() && it->from == at; ++it) {
       if (clockwise_before(back, vertices_[it->to] - vertices_[at],

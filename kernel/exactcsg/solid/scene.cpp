@@ -20,18 +20,18 @@ constexpr std::uint64_t directed_edge(std::uint32_t from, std::uint32_t to) {
   return (static_cast<std::uint64_t>(from) << 32U) | to;
 }
 
+using Double3 = std::array<double, 3>;
+
 // Of a few well-spread triples of corners the one that spans most: it conditions the plane best.
-std::array<std::uint32_t, 3> spanning_triple(const Polyhedron& polyhedron, const Facet& facet) {
+// `near` are the vertices rounded.
+std::array<std::uint32_t, 3> spanning_triple(const Polyhedron& polyhedron,
+                                             const std::vector<Double3>& near, const Facet& facet) {
   const auto count = static_cast<std::uint32_t>(facet.size());
   if (count == 3) return {facet[0], facet[1], facet[2]};
   const auto span_of = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    const auto coordinates = [&](std::uint32_t corner) {
-      const Point3& p = polyhedron.vertices[facet[corner]];
-      return std::array{p.x.get_d(), p.y.get_d(), p.z.get_d()};
-    };
-    const auto p = coordinates(i);
-    const auto q = coordinates(j);
-    const auto r = coordinates(k);
+    const Double3& p = near[facet[i]];
+    const Double3& q = near[facet[j]];
+    const Double3& r = near[facet[k]];
     const double ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
     const double vx = r[0] - p[0], vy = r[1] - p[1], vz = r[2] - p[2];
     return std::abs(uy * vz - uz * vy) + std::abs(uz * vx - ux * vz) + std::abs(ux * vy - uy * vx);
@@ -49,19 +49,51 @@ std::array<std::uint32_t, 3> spanning_triple(const Polyhedron& polyhedron, const
     }
   }
   // Corners in the middle of straight sides may make every tried triple collinear.
-  if (!(widest > 0)) {
-    for (std::uint32_t k = 2; k < count; ++k) {
-      const Point3& p = polyhedron.vertices[facet[0]];
-      const Point3& q = polyhedron.vertices[facet[1]];
-      const Point3& r = polyhedron.vertices[facet[k]];
-      if (cross(q - p, r - p) != Vector3{}) {
-        best = {0, 1, k};
-        break;
-      }
+  const auto corner = [&](std::uint32_t i) -> const Point3& {
+    return polyhedron.vertices[facet[i]];
+  };
+  for (std::uint32_t k = 2; !(widest > 0) && k < count; ++k) {
+    if (cross(corner(1) - corner(0), corner(k) - corner(0)) != Vector3{}) {
+      best = {0, 1, k};
+      break;
     }
   }
   return {facet[best[0]], facet[best[1]], facet[best[2]]};
 }
+
+// Which facet walks a directed edge. COST: O(n log n) to build, O(log n) to ask.
+class EdgeOwners {
+ public:
+  explicit EdgeOwners(const Polyhedron& polyhedron) {
+    for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
+      const Facet& facet = polyhedron.facets[f];
+      for (std::size_t i = 0; i < facet.size(); ++i) {
+        owners_.push_back({directed_edge(facet[i], facet[(i + 1) % facet.size()]), f});
+      }
+    }
+    std::sort(owners_.begin(), owners_.end(),
+              [](const Owner& a, const Owner& b) { return a.edge < b.edge; });
+  }
+
+  // THROWS Error(InternalError) if there is none.
+  std::uint32_t of(std::uint32_t from, std::uint32_t to) const {
+    const std::uint64_t edge = directed_edge(from, to);
+    const auto owner = std::lower_bound(
+        owners_.begin(), owners_.end(), edge,
+        [](const Owner& candidate, std::uint64_t wanted) { return candidate.edge < wanted; });
+    if (owner == owners_.end() || owner->edge != edge) {
+      throw Error(ErrorId::InternalError, {"a primitive that is not closed", "a closed one"});
+    }
+    return owner->facet;
+  }
+
+ private:
+  struct Owner {
+    std::uint64_t edge;
+    std::uint32_t facet;
+  };
+  std::vector<Owner> owners_;
+};
 
 // A plane through the side, not the facet's own: it contains the axis that the facet's normal
 // leans to most.
@@ -138,25 +170,25 @@ class SceneBuilder {
     const auto index = static_cast<PrimitiveIndex>(primitives_.size());
     primitives_.push_back({convex, static_cast<std::uint32_t>(polyhedron.facets.size())});
     std::vector<PointId> points;
+    std::vector<Double3> near;
     points.reserve(polyhedron.vertices.size());
+    near.reserve(polyhedron.vertices.size());
     for (const Point3& vertex : polyhedron.vertices) {
       points.push_back(builder_.add_point(vertex));
-      extend_bounds(vertex);
+      near.push_back({vertex.x.get_d(), vertex.y.get_d(), vertex.z.get_d()});
+      extend_bounds(near.back());
     }
+    std::vector<std::array<std::uint32_t, 3>> triples;
     std::vector<std::uint32_t> planes;
+    triples.reserve(polyhedron.facets.size());
     planes.reserve(polyhedron.facets.size());
-    std::unordered_map<std::uint64_t, std::uint32_t> facet_of_edge;
-    facet_of_edge.reserve(polyhedron.facets.size() * 4);
-    for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
-      const Facet& facet = polyhedron.facets[f];
-      const auto [a, b, c] = spanning_triple(polyhedron, facet);
-      const std::uint32_t plane = builder_.add_plane(points[a], points[b], points[c]);
-      planes.push_back(plane);
-      for (std::size_t i = 0; i < facet.size(); ++i) {
-        builder_.add_incidence(points[facet[i]], plane);
-        facet_of_edge.emplace(directed_edge(facet[i], facet[(i + 1) % facet.size()]), f);
-      }
+    for (const Facet& facet : polyhedron.facets) {
+      triples.push_back(spanning_triple(polyhedron, near, facet));
+      const auto [a, b, c] = triples.back();
+      planes.push_back(builder_.add_plane(points[a], points[b], points[c]));
+      for (const std::uint32_t v : facet) builder_.add_incidence(points[v], planes.back());
     }
+    const EdgeOwners owners(polyhedron);
     for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
       const Facet& facet = polyhedron.facets[f];
       facets_.push_back({index, planes[f], corners_.size(), facet.size()});
@@ -164,36 +196,32 @@ class SceneBuilder {
       for (std::size_t i = 0; i < facet.size(); ++i) {
         const std::uint32_t from = facet[i];
         const std::uint32_t to = facet[(i + 1) % facet.size()];
-        const auto neighbour = facet_of_edge.find(directed_edge(to, from));
-        if (neighbour == facet_of_edge.end()) {
-          throw Error(ErrorId::InternalError, {"a primitive that is not closed", "a closed one"});
-        }
-        const bool flat =
-            !convex && coplanar(polyhedron, facet, polyhedron.facets[neighbour->second]);
-        corners_.push_back({points[from], flat ? plane_across_side(polyhedron, facet, i)
-                                               : planes[neighbour->second]});
+        const std::uint32_t neighbour = owners.of(to, from);
+        const bool flat = !convex && coplanar(polyhedron, triples[f], polyhedron.facets[neighbour]);
+        corners_.push_back({points[from], flat ? plane_across_side(polyhedron, triples[f], from, to)
+                                               : planes[neighbour]});
       }
     }
   }
 
-  static bool coplanar(const Polyhedron& polyhedron, const Facet& facet, const Facet& other) {
-    const auto [a, b, c] = spanning_triple(polyhedron, facet);
+  static bool coplanar(const Polyhedron& polyhedron, const std::array<std::uint32_t, 3>& triple,
+                       const Facet& other) {
+    const auto& vertices = polyhedron.vertices;
     return std::all_of(other.begin(), other.end(), [&](std::uint32_t corner) {
-      return orientation(polyhedron.vertices[a], polyhedron.vertices[b], polyhedron.vertices[c],
-                         polyhedron.vertices[corner]) == Sign::Zero;
+      return orientation(vertices[triple[0]], vertices[triple[1]], vertices[triple[2]],
+                         vertices[corner]) == Sign::Zero;
     });
   }
 
-  std::uint32_t plane_across_side(const Polyhedron& polyhedron, const Facet& facet, std::size_t i) {
-    const auto [a, b, c] = spanning_triple(polyhedron, facet);
-    const Plane own =
-        plane_through(polyhedron.vertices[a], polyhedron.vertices[b], polyhedron.vertices[c]);
-    return builder_.add_plane(plane_across(own, polyhedron.vertices[facet[i]],
-                                           polyhedron.vertices[facet[(i + 1) % facet.size()]]));
+  std::uint32_t plane_across_side(const Polyhedron& polyhedron,
+                                  const std::array<std::uint32_t, 3>& triple, std::uint32_t from,
+                                  std::uint32_t to) {
+    const auto& vertices = polyhedron.vertices;
+    const Plane own = plane_through(vertices[triple[0]], vertices[triple[1]], vertices[triple[2]]);
+    return builder_.add_plane(plane_across(own, vertices[from], vertices[to]));
   }
 
-  void extend_bounds(const Point3& point) {
-    const std::array<double, 3> coordinates{point.x.get_d(), point.y.get_d(), point.z.get_d()};
+  void extend_bounds(const Double3& coordinates) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double value = coordinates[axis];
       if (!(std::abs(value) <= largest_coordinate)) {
