@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <tuple>
+
 #include "exactcsg/solid/classify.hpp"
 #include "exactcsg/solid/measures.hpp"
 
@@ -137,6 +140,162 @@ TEST(Evaluate, HalfSpacesMakeABoundedSolid) {
   EXPECT_THROW(evaluate(Solid::compose(csg::BooleanOperator::Intersection, parts)), Error);
   EXPECT_THROW(evaluate(Solid::full()), Error);
   EXPECT_TRUE(evaluate(Solid::empty()).empty());
+}
+
+void expect_counts(const Solid& solid, std::size_t vertices, std::size_t edges, std::size_t faces) {
+  const Boundary b = evaluate(solid);
+  EXPECT_EQ(b.vertices.size(), vertices);
+  EXPECT_EQ(b.edges.size(), edges);
+  EXPECT_EQ(b.faces.size(), faces);
+}
+
+// A triangular prism along x whose lowest edge, y = 1 and z = 2, runs from x0 to x1.
+Solid prism_on_edge(const Rational& x0, const Rational& x1) {
+  const Rational low(1, 2);
+  const Rational high(3, 2);
+  return Solid::primitive({make_convex_polytope(
+      Polyhedron{{{x0, 1, 2}, {x1, 1, 2}, {x0, low, 3}, {x1, low, 3}, {x0, high, 3}, {x1, high, 3}},
+                 {{0, 2, 4}, {1, 5, 3}, {1, 3, 2, 0}, {4, 5, 1, 0}, {3, 5, 4, 2}}})});
+}
+
+// Counts by hand: what only touches still makes vertices where edges of two directions meet.
+TEST(CanonicalBoundary, TouchingEdgesAndVertices) {
+  const Solid cube = box(0, 0, 0, 2, 2, 2);
+  // The prism's edge lies in the middle of the cube's top.
+  expect_counts(csg::unite(cube, prism_on_edge(Rational(1, 2), Rational(3, 2))), 8 + 6, 12 + 9,
+                6 + 5);
+  // It juts out on both sides: it and two edges of the top are cut at two new vertices.
+  expect_counts(csg::unite(cube, prism_on_edge(-1, 3)), 8 + 6 + 2, 12 + 2 + 9 + 2, 6 + 5);
+  // A pyramid stands on its tip in the middle of an edge of the cube.
+  const Solid pyramid = Solid::primitive({make_convex_polytope(
+      Polyhedron{{{1, 0, 2}, {0, -1, 4}, {2, -1, 4}, {2, 1, 4}, {0, 1, 4}},
+                 {{1, 2, 3, 4}, {0, 2, 1}, {0, 3, 2}, {0, 4, 3}, {0, 1, 4}}})});
+  expect_counts(csg::unite(cube, pyramid), 8 + 5, 12 + 1 + 8, 6 + 5);
+  // Two cubes that share an edge only, and two that share a corner only.
+  expect_counts(csg::unite(box(0, 0, 0, 1, 1, 1), box(1, 1, 0, 2, 2, 1)), 14, 23, 12);
+  expect_counts(csg::unite(box(0, 0, 0, 1, 1, 1), box(1, 1, 1, 2, 2, 2)), 15, 24, 12);
+}
+
+// LAW boundary.1
+TEST(CanonicalBoundary, DoesNotDependOnTreeCellsOrThreads) {
+  AffineMap turn = AffineMap::identity();
+  turn.m[0] = {Rational(3, 5), Rational(-4, 5), 0, Rational(1, 7)};
+  turn.m[1] = {Rational(4, 5), Rational(3, 5), 0, 0};
+  std::vector<Solid> parts;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      parts.push_back(box(i, j, 0, i + 1, j + 1, 1 + (i * j) % 3));
+      parts.push_back(apply(turn, box(i, j, 0, i + 1, j + 1, 1 + (i + j) % 2)));
+    }
+  }
+  const Solid flat = Solid::compose(csg::BooleanOperator::Union, parts);
+  Solid chain;
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) chain = csg::unite(chain, *part);
+  const auto key = [](const Boundary& b) {
+    std::vector<std::vector<std::vector<std::uint32_t>>> loops;
+    for (const BoundaryFace& face : b.faces) loops.push_back(face.loops);
+    return std::make_tuple(b.vertices, b.edges, b.planes, loops);
+  };
+  const Boundary reference = evaluate(flat);
+  EXPECT_FALSE(reference.empty());
+  EXPECT_EQ(key(evaluate(chain)), key(reference));
+  for (const std::size_t facets : {4U, 60U, 100000U}) {
+    for (const unsigned threads : {1U, 2U, 0U}) {
+      EvaluateOptions options;
+      options.facets_per_cell = facets;
+      options.threads = threads;
+      EXPECT_EQ(key(evaluate(flat, options)), key(reference)) << facets << ' ' << threads;
+    }
+  }
+}
+
+// LAW boundary.3
+TEST(CanonicalBoundary, DirectedEdgesBalance) {
+  const Boundary b = evaluate(sponge(2));
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
+  for (const BoundaryFace& face : b.faces) {
+    for (const auto& loop : face.loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::uint32_t from = loop[i];
+        const std::uint32_t to = loop[(i + 1) % loop.size()];
+        balance[std::minmax(from, to)] += from < to ? 1 : -1;
+      }
+    }
+  }
+  EXPECT_EQ(balance.size(), b.edges.size());
+  for (const auto& [edge, sum] : balance) EXPECT_EQ(sum, 0) << edge.first << ' ' << edge.second;
+}
+
+// A chain a million nodes deep: built, evaluated and destroyed without recursion.
+TEST(Evaluate, MillionDeepChain) {
+  const Solid a = box(0, 0, 0, 3, 1, 1);
+  const Solid b = box(1, 0, 0, 2, 1, 1);
+  Solid chain = a;
+  for (int i = 0; i < 500'000; ++i) chain = csg::unite(csg::subtract(chain, b), a);
+  chain = csg::subtract(chain, b);
+  EXPECT_EQ(volume(evaluate(chain)), 2);  // 3 - 1
+  EXPECT_EQ(classify(chain, {Rational(3, 2), Rational(1, 2), Rational(1, 2)}), PointClass::Out);
+}
+
+// Many equal and nearly equal operands: no cell ever gets few facets.
+TEST(Evaluate, ManyCoincidentOperands) {
+  std::vector<Solid> parts;
+  for (int i = 0; i < 60; ++i) parts.push_back(box(0, 0, 0, 1, 1, 1));
+  EXPECT_EQ(volume(evaluate(Solid::compose(csg::BooleanOperator::Union, parts))), 1);
+  for (int i = 0; i < 30; ++i) {
+    parts.push_back(box(0, 0, 0, 1, 1, 1 + Rational(i) / Rational("1000000000000000000")));
+  }
+  EXPECT_EQ(volume(evaluate(Solid::compose(csg::BooleanOperator::Union, parts))),
+            1 + 29 / Rational("1000000000000000000"));
+}
+
+// An L-shaped mesh against boxes: volumes by hand (the L has volume 3).
+TEST(Evaluate, MeshesAreLeavesToo) {
+  Polyhedron l;
+  for (int z = 0; z < 2; ++z) {
+    for (const auto& [x, y] : std::vector<std::pair<int, int>>{
+             {0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}, {0, 1}}) {
+      l.vertices.push_back({x, y, z});
+    }
+  }
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    l.facets.push_back({i, (i + 1) % 8, (i + 1) % 8 + 8, i + 8});
+  }
+  for (const Facet& cap : {Facet{0, 1, 2, 3, 4, 7}, Facet{7, 4, 5, 6}}) {
+    l.facets.emplace_back(cap.rbegin(), cap.rend());
+    l.facets.push_back(cap);
+    for (std::uint32_t& v : l.facets.back()) v += 8;
+  }
+  const Solid mesh = Solid::primitive({make_mesh(l)});
+  expect_counts(mesh, 12, 18, 8);
+  EXPECT_EQ(volume(evaluate(mesh)), 3);
+  const Rational half(1, 2);
+  const Solid cutter = box(half, half, -1, 3, 3, half);
+  // The L's part over [1/2, 2]^2 is 9/4 - 1; up to z = 1/2 half of that.
+  EXPECT_EQ(volume(evaluate(csg::intersect(mesh, cutter))), Rational(5, 8));
+  EXPECT_EQ(volume(evaluate(csg::subtract(mesh, cutter))), 3 - Rational(5, 8));
+  EXPECT_EQ(volume(evaluate(csg::subtract(box(0, 0, 0, 2, 2, 1), mesh))), 1);
+  expect_counts(csg::subtract(box(0, 0, 0, 2, 2, 1), mesh), 8, 12, 6);
+  AffineMap shift = AffineMap::identity();
+  EvaluateOptions fine;
+  fine.facets_per_cell = 3;
+  shift.m[2][3] = 1;
+  const Boundary stacked = evaluate(csg::unite(mesh, apply(shift, mesh)), fine);
+  EXPECT_EQ(volume(stacked), 6);
+  EXPECT_EQ(stacked.vertices.size(), 12U);
+}
+
+TEST(Evaluate, StopsWhenCancelled) {
+  Progress progress;
+  progress.cancel(ErrorId::TimeLimit);
+  EvaluateOptions options;
+  options.progress = &progress;
+  try {
+    evaluate(sponge(1), options);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.id(), ErrorId::TimeLimit);
+  }
 }
 
 }  // namespace

@@ -16,8 +16,16 @@ namespace {
 using csg::Membership;
 
 constexpr std::uint32_t depth_limit = 4000;
-constexpr std::uint32_t stall_limit = 6;
 constexpr std::size_t sample_size = 384;
+
+// How many divisions in a row may hardly separate anything before the cell is evaluated as it is.
+// Evaluation costs about the square of the facets, so large cells are given more chances.
+constexpr std::uint32_t stall_limit(std::size_t facets) {
+  return facets <= 512 ? 2 : facets <= 4096 ? 4 : 8;
+}
+
+// Facets in at most three planes share a point: no division will ever separate them (MEG's rule).
+constexpr std::size_t inseparable_planes = 3;
 
 void set_bounds(ClippedFacet& facet, std::span<const Corner> corners) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -93,6 +101,12 @@ class Decomposition::Divider {
     }
     make_child(children[0], WallSide::Below);
     make_child(children[1], WallSide::Above);
+    const auto square = [](std::size_t n) {
+      return static_cast<double>(n) * static_cast<double>(n);
+    };
+    const bool separates = square(children[0].facets.size()) + square(children[1].facets.size()) <
+                           0.9 * square(task_.facets.size());
+    for (CellTask& child : children) child.stalled = separates ? 0 : task_.stalled + 1;
     children[0].statistics = task_.statistics;
     children[0].statistics += below_statistics_;
     return children;
@@ -119,8 +133,6 @@ class Decomposition::Divider {
     for (const ClippedFacet& facet : task_.facets) {
       scratch_.status[scene_.facets[facet.facet].primitive] = Membership::Unknown;
     }
-    const bool hardly_fewer = child.facets.size() * 8 > task_.facets.size() * 7;
-    child.stalled = hardly_fewer ? task_.stalled + 1 : 0;
   }
 
   void mark_tree(const PrunedTree& tree, unsigned char mark) {
@@ -221,6 +233,19 @@ Decomposition::Decomposition(const Scene& scene, std::size_t facets_per_cell, Pr
       progress_(progress),
       scratch_(std::make_unique<ScratchPerThread>(scene.primitives.size())) {}
 
+bool Decomposition::inseparable(const CellTask& task) const {
+  std::array<PlaneRef, inseparable_planes> planes;
+  std::size_t count = 0;
+  for (const ClippedFacet& facet : task.facets) {
+    const PlaneRef plane = scene_.facets[facet.facet].plane.plane;
+    const auto end = planes.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::find(planes.begin(), end, plane) != end) continue;
+    if (count == planes.size()) return false;
+    planes[count++] = plane;
+  }
+  return true;
+}
+
 bool Decomposition::is_one_primitive(const CellTask& task) const {
   return !task.facets.empty() && scene_.facets[task.facets.front().facet].primitive ==
                                      scene_.facets[task.facets.back().facet].primitive;
@@ -258,7 +283,8 @@ CellTask Decomposition::root() const {
 bool Decomposition::is_leaf(const CellTask& task) const {
   if (progress_ != nullptr) progress_->check();
   return task.facets.empty() || task.facets.size() <= facets_per_cell_ ||
-         task.stalled >= stall_limit || task.depth >= depth_limit;
+         task.stalled >= stall_limit(task.facets.size()) || task.depth >= depth_limit ||
+         inseparable(task);
 }
 
 namespace {

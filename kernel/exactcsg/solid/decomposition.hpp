@@ -73,6 +73,8 @@ class Decomposition {
   struct Scratch;
   struct ScratchPerThread;
 
+  bool inseparable(const CellTask& task) const;
+
   const Scene& scene_;
   std::size_t facets_per_cell_;
   Progress* progress_;
