@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -289,14 +290,30 @@ bool Decomposition::is_leaf(const CellTask& task) const {
 
 namespace {
 
-// The predicted work of the two children; straddling facets count in both.
-double predicted_cost(const std::vector<ClippedFacet>& facets, std::size_t stride, std::size_t axis,
-                      double position) {
+// Facets spread over all of them, at most sample_size. A fixed stride would pick the same facet of
+// every primitive; multiples of a large odd number do not.
+std::vector<std::uint32_t> sample_of(std::size_t count) {
+  std::vector<std::uint32_t> sample;
+  if (count <= sample_size) {
+    sample.resize(count);
+    std::iota(sample.begin(), sample.end(), 0U);
+    return sample;
+  }
+  constexpr std::uint64_t multiplier = 2654435761U;
+  for (std::uint64_t i = 1; i <= sample_size; ++i) {
+    sample.push_back(static_cast<std::uint32_t>((i * multiplier) % count));
+  }
+  return sample;
+}
+
+// The predicted work of the two children; facets that straddle or touch the wall count in both.
+double predicted_cost(const std::vector<ClippedFacet>& facets,
+                      const std::vector<std::uint32_t>& sample, std::size_t axis, double position) {
   std::size_t below = 0;
   std::size_t above = 0;
-  for (std::size_t i = 0; i < facets.size(); i += stride) {
-    below += facets[i].lower[axis] < position;
-    above += facets[i].upper[axis] > position;
+  for (const std::uint32_t i : sample) {
+    below += facets[i].lower[axis] <= position;
+    above += facets[i].upper[axis] >= position;
   }
   const auto cost = [](std::size_t count) {
     const auto n = static_cast<double>(count);
@@ -322,51 +339,67 @@ std::optional<double> position_near(std::vector<double>& middles, std::size_t ra
 }  // namespace
 
 std::optional<Division> Decomposition::choose_division(const CellTask& task) const {
-  const std::size_t stride = std::max<std::size_t>(1, task.facets.size() / sample_size);
-  std::vector<double> middles;
-  std::vector<Sign> signs;
-  TierStatistics unused;
-  for (const double fraction :
-       {0.4609375, 0.55859375, 0.3671875, 0.640625, 0.28515625, 0.7109375}) {
-    std::optional<Division> best;
-    double lowest = std::numeric_limits<double>::infinity();
+  struct Candidate {
+    double cost;
+    Division division;
+  };
+  const std::vector<std::uint32_t> sample = sample_of(task.facets.size());
+  std::array<std::vector<double>, 3> middles;
+  std::array<double, 3> least;
+  std::array<double, 3> most;
+  least.fill(std::numeric_limits<double>::infinity());
+  most.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const std::uint32_t i : sample) {
+      const ClippedFacet& facet = task.facets[i];
+      middles[axis].push_back(facet.lower[axis] + (facet.upper[axis] - facet.lower[axis]) / 2);
+      least[axis] = std::min(least[axis], facet.lower[axis]);
+      most[axis] = std::max(most[axis], facet.upper[axis]);
+    }
+    std::sort(middles[axis].begin(), middles[axis].end());
+  }
+  std::vector<Candidate> candidates;
+  for (const double fraction : {0.4609375, 0.55859375, 0.3671875, 0.640625}) {
+    candidates.clear();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      middles.clear();
-      double least = std::numeric_limits<double>::infinity();
-      double most = -least;
-      for (std::size_t i = 0; i < task.facets.size(); i += stride) {
-        const ClippedFacet& facet = task.facets[i];
-        middles.push_back(facet.lower[axis] + (facet.upper[axis] - facet.lower[axis]) / 2);
-        least = std::min(least, facet.lower[axis]);
-        most = std::max(most, facet.upper[axis]);
-      }
-      std::sort(middles.begin(), middles.end());
-      for (const std::optional<double> candidate :
-           {position_near(middles, middles.size() / 2, fraction),
-            std::optional<double>(least + fraction * (most - least))}) {
-        if (!candidate) continue;
-        const double position = round_wall_position(*candidate);
-        if (!(task.cell.lower[axis] < position && position < task.cell.upper[axis])) continue;
-        const double cost = predicted_cost(task.facets, stride, axis, position);
-        if (cost < lowest) {
-          lowest = cost;
-          best = Division{static_cast<Axis>(axis), position};
+      for (const std::optional<double> position :
+           {position_near(middles[axis], middles[axis].size() / 2, fraction),
+            std::optional<double>(least[axis] + fraction * (most[axis] - least[axis]))}) {
+        if (!position) continue;
+        const Division division{static_cast<Axis>(axis), round_wall_position(*position)};
+        if (!(task.cell.lower[axis] < division.position &&
+              division.position < task.cell.upper[axis])) {
+          continue;
         }
+        candidates.push_back(
+            {predicted_cost(task.facets, sample, axis, division.position), division});
       }
     }
-    if (!best) return std::nullopt;
-    const bool in_wall =
-        std::any_of(task.facets.begin(), task.facets.end(), [&](const ClippedFacet& facet) {
-          const auto axis = static_cast<std::size_t>(best->axis);
-          // A facet in the wall is as thin as its certified errors.
-          if (facet.upper[axis] < best->position || facet.lower[axis] > best->position)
-            return false;
-          return wall_side(scene_.geometry, facet, corners_of(task, facet), *best, signs, unused) ==
-                 WallSide::Within;
-        });
-    if (!in_wall) return best;
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+    for (const Candidate& candidate : candidates) {
+      if (!has_facet_in_wall(task, candidate.division)) return candidate.division;
+    }
   }
   return std::nullopt;
+}
+
+bool Decomposition::has_facet_in_wall(const CellTask& task, const Division& division) const {
+  const auto axis = static_cast<std::size_t>(division.axis);
+  std::vector<Sign> signs;
+  TierStatistics unused;
+  const auto clearly_off = [&](const Corner& corner) {
+    const double distance = std::abs(corner.vertex.coordinate(division.axis) - division.position);
+    return distance > corner.vertex.error * (1 + 0x1p-40) + 0x1p-50 * std::abs(division.position);
+  };
+  return std::any_of(task.facets.begin(), task.facets.end(), [&](const ClippedFacet& facet) {
+    if (facet.upper[axis] < division.position || facet.lower[axis] > division.position) {
+      return false;
+    }
+    const std::span<const Corner> corners = corners_of(task, facet);
+    return std::none_of(corners.begin(), corners.end(), clearly_off) &&
+           wall_side(scene_.geometry, facet, corners, division, signs, unused) == WallSide::Within;
+  });
 }
 
 std::vector<CellTask> Decomposition::divide(CellTask& task, const Division& division) const {

@@ -73,6 +73,7 @@ class Decomposition {
   struct Scratch;
   struct ScratchPerThread;
 
+  bool has_facet_in_wall(const CellTask& task, const Division& division) const;
   bool inseparable(const CellTask& task) const;
 
   const Scene& scene_;
