@@ -422,7 +422,7 @@ bool meets_improperly(const std::array<Point3, 3>& f, const std::array<Point3, 3
 TEST_F(RandomPairs, AgreeWithClippingInRationals) {
   int improper = 0;
   int proper = 0;
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < 1200; ++round) {
     // Two thin doubled triangles are no mesh; so pad each to a tetrahedron and keep the pairs of
     // tetrahedra whose boundaries meet properly, by brute force over all pairs of facets.
     const int grid = 2 + round % 4;
@@ -455,8 +455,8 @@ TEST_F(RandomPairs, AgreeWithClippingInRationals) {
     EXPECT_EQ(accepted, expected) << "round " << round;
     ++(expected ? proper : improper);
   }
-  EXPECT_GT(proper, 150);
-  EXPECT_GT(improper, 500);
+  EXPECT_GT(proper, 60);
+  EXPECT_GT(improper, 200);
 }
 
 TEST(MakeMesh, LargeMeshIsFast) {

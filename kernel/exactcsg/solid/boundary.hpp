@@ -17,6 +17,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "exactcsg/number/point.hpp"
@@ -74,9 +75,11 @@ struct Topology {
 
 Topology topology(const Boundary& boundary);
 
-// 64 hexadecimal digits: SHA-256 over the sorted exact vertices, edges and oriented planes of faces.
+// 64 hexadecimal digits: SHA-256 over the sorted exact vertices, edges, oriented planes of faces and
+// sides of faces (docs/digest.md).
 // LAW digest.1  equal boundaries have equal digests, and (but for a collision of SHA-256) equal
-// digests mean the same solid.
+// digests mean the same solid. Vertices, edges and planes without the sides would not do.
+// LAW digest.2  it does not depend on the order of vertices, edges, planes, faces and loops.
 std::string digest(const Boundary& boundary);
 
 }  // namespace exactcsg

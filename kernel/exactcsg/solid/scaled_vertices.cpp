@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/scaled_vertices.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace exactcsg {
+
+namespace {
+
+constexpr std::size_t common_denominator_bits = 512;
+
+const Rational& coordinate_of(const Point3& p, std::size_t i) {
+  return i == 0 ? p.x : i == 1 ? p.y : p.z;
+}
+
+std::optional<Integer> common_denominator(const std::vector<Point3>& points) {
+  Integer common = 1;
+  for (const Point3& p : points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Integer& denominator = coordinate_of(p, i).get_den();
+      if (mpz_divisible_p(common.get_mpz_t(), denominator.get_mpz_t()) != 0) continue;
+      common = lcm(common, denominator);
+      if (mpz_sizeinbase(common.get_mpz_t(), 2) > common_denominator_bits) return std::nullopt;
+    }
+  }
+  return common;
+}
+
+// An exponent e with every extent of the vertices below 2^e, and not much more.
+long extent_exponent(const std::vector<Point3>& points) {
+  long exponent = -1000000;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [low, high] =
+        std::minmax_element(points.begin(), points.end(), [&](const Point3& p, const Point3& q) {
+          return coordinate_of(p, i) < coordinate_of(q, i);
+        });
+    const Rational extent = coordinate_of(*high, i) - coordinate_of(*low, i);
+    if (extent == 0) continue;
+    exponent =
+        std::max(exponent, static_cast<long>(mpz_sizeinbase(extent.get_num_mpz_t(), 2)) -
+                               static_cast<long>(mpz_sizeinbase(extent.get_den_mpz_t(), 2)) + 1);
+  }
+  return exponent;
+}
+
+Rational power_of_two(long exponent) {
+  Rational power = 1;
+  if (exponent >= 0) {
+    mpq_mul_2exp(power.get_mpq_t(), power.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  } else {
+    mpq_div_2exp(power.get_mpq_t(), power.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  }
+  return power;
+}
+
+// floor(value * 2^shift)
+void floor_shifted(Integer& result, Integer& scratch, const Rational& value, long shift) {
+  if (shift >= 0) {
+    mpz_mul_2exp(result.get_mpz_t(), value.get_num_mpz_t(), static_cast<mp_bitcnt_t>(shift));
+    mpz_fdiv_q(result.get_mpz_t(), result.get_mpz_t(), value.get_den_mpz_t());
+  } else {
+    mpz_mul_2exp(scratch.get_mpz_t(), value.get_den_mpz_t(), static_cast<mp_bitcnt_t>(-shift));
+    mpz_fdiv_q(result.get_mpz_t(), value.get_num_mpz_t(), scratch.get_mpz_t());
+  }
+}
+
+// Moves the smallest coordinates to 0.
+void move_to_origin(ScaledVertices& s) {
+  std::array<Integer, 3> lowest = s.coordinates.front();
+  for (const auto& c : s.coordinates) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (c[i] < lowest[i]) lowest[i] = c[i];
+    }
+  }
+  for (auto& c : s.coordinates) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      c[i] -= lowest[i];
+      if (c[i] > s.largest) s.largest = c[i];
+    }
+  }
+  s.origin = {lowest[0] * s.unit, lowest[1] * s.unit, lowest[2] * s.unit};
+}
+
+}  // namespace
+
+bool has_short_common_denominator(const Boundary& boundary) {
+  return common_denominator(boundary.vertices).has_value();
+}
+
+ScaledVertices scale_vertices(const Boundary& boundary, int bits) {
+  ScaledVertices s;
+  if (boundary.vertices.empty()) {
+    s.unit = 1;
+    s.exact = true;
+    return s;
+  }
+  s.coordinates.resize(boundary.vertices.size());
+  if (const std::optional<Integer> common = common_denominator(boundary.vertices)) {
+    s.exact = true;
+    s.unit = Rational(Integer(1), *common);
+    Integer factor;
+    for (std::size_t v = 0; v < s.coordinates.size(); ++v) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Rational& value = coordinate_of(boundary.vertices[v], i);
+        mpz_divexact(factor.get_mpz_t(), common->get_mpz_t(), value.get_den_mpz_t());
+        mpz_mul(s.coordinates[v][i].get_mpz_t(), value.get_num_mpz_t(), factor.get_mpz_t());
+      }
+    }
+  } else {
+    const long shift = bits - extent_exponent(boundary.vertices);
+    s.unit = power_of_two(-shift);
+    Integer scratch;
+    for (std::size_t v = 0; v < s.coordinates.size(); ++v) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        floor_shifted(s.coordinates[v][i], scratch, coordinate_of(boundary.vertices[v], i), shift);
+      }
+    }
+  }
+  move_to_origin(s);
+  return s;
+}
+
+}  // namespace exactcsg

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// The vertices of a boundary as non-negative integers: exact where all coordinates have one short
+// common denominator, else cut to a grid. [Certified]
+
+#include <array>
+#include <vector>
+
+#include "exactcsg/number/point.hpp"
+#include "exactcsg/solid/boundary.hpp"
+
+namespace exactcsg {
+
+// LAW scaled.1  vertex v is origin + unit * (coordinates[v] + e), each e in [0, 1), and 0 if exact
+// LAW scaled.2  0 <= coordinates[v] <= largest
+struct ScaledVertices {
+  std::vector<std::array<Integer, 3>> coordinates;
+  Integer largest;
+  Point3 origin{0, 0, 0};
+  Rational unit;
+  bool exact = false;
+};
+
+// `bits`: the number of bits of the largest coordinate, about, if a grid is needed.
+// COST: O(vertices) integer divisions of the length of the input
+ScaledVertices scale_vertices(const Boundary& boundary, int bits);
+
+// Only exactly; false if the common denominator is longer than 512 bits.
+bool has_short_common_denominator(const Boundary& boundary);
+
+}  // namespace exactcsg

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "exactcsg/solid/boundary.hpp"
+#include "solid/boundary_builder.hpp"
+
+namespace exactcsg {
+namespace {
+
+using namespace test;
+
+// The value is what the Python program in docs/digest.md prints, which shares no code with ours.
+TEST(Digest, UnitCubeAsADocumentReaderRecomputesIt) {
+  EXPECT_EQ(digest(boundary_of_cells({{0, 0, 0}})),
+            "08f4b04dc5e810550b93c15d3f6cf9e87c1db46607f135641392d4a4af669710");
+}
+
+// sha256sum of "exactcsg.boundary/1\nvertices 0\nedges 0\nplanes 0\nsides 0\n"
+TEST(Digest, TheEmptySolid) {
+  EXPECT_EQ(digest(Boundary{}), "643fb3e1e4adbc99422ba20c9c96b0c7a17f103df92f0bc3be6960b7d771fbad");
+}
+
+TEST(Digest, TellsSolidsApart) {
+  const std::string cube = digest(boundary_of_cells({{0, 0, 0}}));
+  EXPECT_EQ(cube, digest(boundary_of(*make_box({0, 0, 0}, {1, 1, 1}).polyhedron)));
+  EXPECT_NE(cube, digest(boundary_of_cells({{0, 0, 1}})));
+  EXPECT_NE(cube,
+            digest(boundary_of(
+                *make_box({0, 0, 0}, {1, 1, 1 + parse_rational("1e-30").value()}).polyhedron)));
+}
+
+// LAW digest.2
+TEST(Digest, DoesNotDependOnOrder) {
+  const Boundary b = boundary_of_cells(without(block({0, 0, 0}, {3, 3, 1}), {{1, 1, 0}}));
+  Boundary shuffled = b;
+  const auto n = static_cast<std::uint32_t>(b.vertices.size());
+  const auto renamed = [&](std::uint32_t v) { return n - 1 - v; };
+  std::reverse(shuffled.vertices.begin(), shuffled.vertices.end());
+  std::reverse(shuffled.edges.begin(), shuffled.edges.end());
+  for (BoundaryEdge& e : shuffled.edges) e = {renamed(e.to), renamed(e.from)};
+  std::reverse(shuffled.planes.begin(), shuffled.planes.end());
+  std::reverse(shuffled.faces.begin(), shuffled.faces.end());
+  for (BoundaryFace& f : shuffled.faces) {
+    f.plane = static_cast<std::uint32_t>(b.planes.size()) - 1 - f.plane;
+    std::reverse(f.loops.begin(), f.loops.end());
+    for (auto& loop : f.loops) {
+      for (auto& v : loop) v = renamed(v);
+      std::rotate(loop.begin(), loop.begin() + 1, loop.end());
+    }
+  }
+  EXPECT_EQ(digest(shuffled), digest(b));
+}
+
+// Six cubes round a place that is filled or not: the same vertices, edges and (thanks to six more
+// cubes elsewhere) oriented planes. LAW digest.1 needs the sides.
+TEST(Digest, VerticesEdgesAndPlanesAreNotEnough) {
+  const std::set<Cell> arms{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1},
+                            {1, 5, 5}, {-1, 5, 5}, {5, 1, 5}, {5, -1, 5}, {5, 5, 1}, {5, 5, -1}};
+  const Boundary hollow = boundary_of_cells(arms);
+  const Boundary filled = boundary_of_cells(with(arms, {{0, 0, 0}}));
+  EXPECT_EQ(hollow.vertices, filled.vertices);
+  EXPECT_EQ(hollow.edges, filled.edges);
+  EXPECT_EQ(hollow.planes, filled.planes);
+  EXPECT_NE(digest(hollow), digest(filled));
+  EXPECT_EQ(topology(hollow).cavities, 1U);
+  EXPECT_EQ(topology(filled).cavities, 0U);
+}
+
+}  // namespace
+}  // namespace exactcsg
