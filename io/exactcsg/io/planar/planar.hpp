@@ -32,21 +32,26 @@ struct AffineMap2 {
 PlanarTree apply(const AffineMap2& map, const PlanarTree& tree);  // singular maps give Empty
 
 // The outline of the regularised set as simple loops, outer counter-clockwise, holes clockwise, no
-// two touching except at vertices; collinear vertices removed. [Exact]
+// two touching except at vertices of both; collinear vertices removed unless another part of the
+// outline touches there. [Exact]
+// THROWS Error(UnboundedSolid) if the set is unbounded (Full, say).
+// COST: O((n + k) log n) for n edges that cross k times.
 PlanarFigure resolve(const PlanarTree& tree);
 
-// Convex, pairwise interior-disjoint polygons (counter-clockwise) that cover the figure; conforming:
-// their union's boundary vertices are the figure's. [Exact]
+// Convex, pairwise interior-disjoint polygons (counter-clockwise) that cover the figure;
+// conforming: their union's boundary vertices are the vertices of resolve(figure), and no other
+// vertex is used. [Exact]
 std::vector<std::vector<Point2>> convex_parts(const PlanarFigure& figure);
 
 // Counter-clockwise vertices of the convex hull; fewer than three: empty interior. [Exact]
 std::vector<Point2> hull(const PlanarTree& tree);
 
 struct LinearExtrusion {
-  Rational lower, upper;             // z range
-  std::array<Rational, 2> scale{1, 1};  // of the top
-  // One entry a level above the bottom, ascending: how level j of s is turned and scaled. Empty: no
-  // twist (one slice). The unit directions (cosine, sine) are rounded doubles made exact.
+  Rational lower, upper;                // z range
+  std::array<Rational, 2> scale{1, 1};  // of the top, if there are no levels
+  // One entry a level above the bottom, ascending and evenly spaced up to `upper`: how level j of s
+  // is turned and then scaled (its own scale counts, not the one above). Empty: no twist (one
+  // slice). The unit directions (cosine, sine) are rounded doubles made exact.
   struct Level {
     Rational cosine, sine;
     std::array<Rational, 2> scale;
@@ -55,21 +60,27 @@ struct LinearExtrusion {
 };
 
 // Without twist and scale: the tree itself with every figure as a prism (no Boolean is evaluated in
-// two dimensions). Otherwise the resolved outline's swept mesh, quadrilaterals split along the
-// shorter diagonal in xy as OpenSCAD does; scale 0 ends in an apex or a ridge.
+// two dimensions). Otherwise the resolved outline's swept mesh, one for each connected component,
+// quadrilaterals split along the shorter diagonal in xy as OpenSCAD does; scale 0 ends in an apex
+// or a ridge. Empty if lower >= upper. THROWS Error(BadArgument) for a negative scale, or a scale
+// of 0 below the top;
+//        Error(SelfIntersectingMesh) if the twist of a slice makes the sides cross.
 Solid linear_extrude(const PlanarTree& tree, const LinearExtrusion& extrusion);
 
-// The outline (x >= 0 after mirroring if it is all x <= 0) turned about the z axis through the given
-// unit directions, one per ring; `closed` joins the last ring to the first.
-// THROWS Error(BadArgument) if the outline lies on both sides of x = 0.
+// The outline turned about the z axis through the given directions, one per ring: its point (x, y)
+// becomes (x u, y) for the direction u. All x >= 0, or all x <= 0. The directions go once round at
+// most, in either sense; `closed` joins the last ring to the first. One primitive for each
+// connected component. Empty if two rings are all there is and they lie in one plane. THROWS
+// Error(BadArgument) if the outline lies on both sides of x = 0, or if the directions turn back or
+// go round more than once.
 Solid rotate_extrude(const PlanarTree& tree, std::span<const std::array<Rational, 2>> directions,
                      bool closed);
 
 // The convex hull of points, as one primitive; Empty if they are all in one plane. [Exact]
 Solid hull(std::span<const Point3> points);
 
-// The convex hull of a solid: of the primitives' vertices where it is a union of bounded primitives,
-// otherwise of the vertices of its evaluated boundary.
+// The convex hull of a solid: of the primitives' vertices where it is a union of bounded
+// primitives, otherwise of the vertices of its evaluated boundary.
 Solid hull(const Solid& solid);
 
 }  // namespace exactcsg::io

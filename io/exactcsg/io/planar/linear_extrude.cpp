@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <unordered_map>
+
+#include "exactcsg/io/planar/outline.hpp"
+#include "exactcsg/io/planar/substitute.hpp"
+
+namespace exactcsg::io {
+
+namespace {
+
+using Level = LinearExtrusion::Level;
+
+bool is_identity(const Level& level) {
+  return level.cosine == 1 && level.sine == 0 && level.scale[0] == 1 && level.scale[1] == 1;
+}
+
+// Turned first, then scaled, as OpenSCAD does.
+Point2 apply(const Level& level, const Point2& p) {
+  return {level.scale[0] * (level.cosine * p.x - level.sine * p.y),
+          level.scale[1] * (level.sine * p.x + level.cosine * p.y)};
+}
+
+// The component's points under numbers of their own, and its loops and convex parts in them.
+struct Section {
+  std::vector<Point2> points;
+  std::vector<PlanarLoop> loops;
+  std::vector<PlanarLoop> parts;
+  bool convex = false;
+};
+
+Section section_of(const Outline& outline, const OutlineComponent& component) {
+  Section section;
+  section.loops = component.loops;
+  section.parts = convex_parts(outline, component);
+  section.convex = outline.convex;
+  std::unordered_map<std::uint32_t, std::uint32_t> number;
+  for (PlanarLoop& loop : section.loops) {
+    for (std::uint32_t& v : loop) {
+      const auto [at, added] =
+          number.try_emplace(v, static_cast<std::uint32_t>(section.points.size()));
+      if (added) section.points.push_back(outline.points[v]);
+      v = at->second;
+    }
+  }
+  for (PlanarLoop& part : section.parts) {
+    for (std::uint32_t& v : part) v = number.at(v);
+  }
+  return section;
+}
+
+// Vertices are added once a position and level; facets that collapse to a line or point are left
+// out.
+class Sweep {
+ public:
+  explicit Sweep(const Section& section) : section_(section) {}
+
+  void begin(const Rational& z) {
+    add_level(section_.points, z);
+    for (const PlanarLoop& part : section_.parts) {
+      Facet facet;
+      for (auto v = part.rbegin(); v != part.rend(); ++v) facet.push_back(numbers_[*v]);
+      polyhedron_.facets.push_back(std::move(facet));
+    }
+  }
+
+  // Sides that are planar quadrilaterals: the sections are images of one another under scaling.
+  void add_planar_level(const std::vector<Point2>& points, const Rational& z) {
+    step(points, z);
+    each_side([&](std::uint32_t a, std::uint32_t b) {
+      add_facet({before_[a], before_[b], numbers_[b], numbers_[a]});
+    });
+  }
+
+  void add_split_level(const std::vector<Point2>& points, const Rational& z, bool turns_back) {
+    const std::vector<Point2> below = points_;
+    step(points, z);
+    for (std::size_t loop = 0; loop < section_.loops.size(); ++loop) {
+      each_side_of(section_.loops[loop], [&](std::uint32_t a, std::uint32_t b) {
+        if (takes_first_diagonal(below[a], points[b], below[b], points[a], loop == 0, turns_back)) {
+          add_facet({before_[a], before_[b], numbers_[b]});
+          add_facet({before_[a], numbers_[b], numbers_[a]});
+        } else {
+          add_facet({before_[a], before_[b], numbers_[a]});
+          add_facet({before_[b], numbers_[b], numbers_[a]});
+        }
+      });
+    }
+  }
+
+  // The top's section is a segment of the line x = 0 or y = 0: facets that reach it get all of its
+  // vertices between theirs, so that facets of both sides have the same edges.
+  void subdivide_ridge() {
+    std::vector<std::uint32_t> ridge(numbers_);
+    const auto less = [&](std::uint32_t a, std::uint32_t b) {
+      return polyhedron_.vertices[a] < polyhedron_.vertices[b];
+    };
+    std::sort(ridge.begin(), ridge.end(), less);
+    ridge.erase(std::unique(ridge.begin(), ridge.end()), ridge.end());
+    std::unordered_map<std::uint32_t, std::size_t> place;
+    for (std::size_t i = 0; i < ridge.size(); ++i) place.emplace(ridge[i], i);
+    for (Facet& facet : polyhedron_.facets) {
+      Facet refined;
+      for (std::size_t i = 0; i < facet.size(); ++i) {
+        refined.push_back(facet[i]);
+        const auto from = place.find(facet[i]);
+        const auto to = place.find(facet[(i + 1) % facet.size()]);
+        if (from == place.end() || to == place.end()) continue;
+        for (std::size_t k = from->second + 1; k < to->second; ++k) refined.push_back(ridge[k]);
+        for (std::size_t k = from->second; k-- > to->second + 1;) refined.push_back(ridge[k]);
+      }
+      facet = std::move(refined);
+    }
+  }
+
+  void end() {
+    for (const PlanarLoop& part : section_.parts) {
+      Facet facet;
+      for (const std::uint32_t v : part) facet.push_back(numbers_[v]);
+      polyhedron_.facets.push_back(std::move(facet));
+    }
+  }
+
+  Polyhedron take() { return std::move(polyhedron_); }
+
+ private:
+  void step(const std::vector<Point2>& points, const Rational& z) {
+    before_ = std::move(numbers_);
+    add_level(points, z);
+  }
+
+  void add_level(const std::vector<Point2>& points, const Rational& z) {
+    points_ = points;
+    numbers_.resize(points.size());
+    std::vector<std::uint32_t> order(points.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    const auto compare = [&](std::uint32_t a, std::uint32_t b) {
+      const int x = cmp(points[a].x, points[b].x);
+      return x != 0 ? x : cmp(points[a].y, points[b].y);
+    };
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return compare(a, b) < 0; });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (i == 0 || compare(order[i - 1], order[i]) != 0) {
+        polyhedron_.vertices.push_back({points[order[i]].x, points[order[i]].y, z});
+      }
+      numbers_[order[i]] = static_cast<std::uint32_t>(polyhedron_.vertices.size() - 1);
+    }
+  }
+
+  template <class F>
+  void each_side_of(const PlanarLoop& loop, F&& visit) const {
+    for (std::size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);
+  }
+  template <class F>
+  void each_side(F&& visit) const {
+    for (const PlanarLoop& loop : section_.loops) each_side_of(loop, visit);
+  }
+
+  void add_facet(Facet facet) {
+    Facet distinct;
+    for (const std::uint32_t v : facet) {
+      if (std::find(distinct.begin(), distinct.end(), v) == distinct.end()) distinct.push_back(v);
+    }
+    if (distinct.size() >= 3) polyhedron_.facets.push_back(std::move(distinct));
+  }
+
+  // OpenSCAD 2021.01 compares the diagonals' lengths and calls them equal within ten parts in a
+  // million of their mean; then the direction of the twist and the sense of the loop decide, so
+  // that neighbouring quadrilaterals are split alike. Our test |p - q| 1e5 <= p + q of the squared
+  // lengths is the same one, up to the square of the tolerance.
+  static bool takes_first_diagonal(const Point2& a_below, const Point2& b_above,
+                                   const Point2& b_below, const Point2& a_above, bool outer,
+                                   bool turns_back) {
+    const auto squared = [](const Point2& p, const Point2& q) {
+      const Rational x = p.x - q.x;
+      const Rational y = p.y - q.y;
+      return Rational(x * x + y * y);
+    };
+    const Rational first = squared(a_below, b_above);
+    const Rational second = squared(b_below, a_above);
+    const Rational difference = first - second;
+    if (abs(difference) * 100'000 <= first + second) {
+      const bool flip = !outer != turns_back;
+      return !flip;
+    }
+    return difference < 0;
+  }
+
+  const Section& section_;
+  Polyhedron polyhedron_;
+  std::vector<Point2> points_;          // of the present level
+  std::vector<std::uint32_t> numbers_;  // of the present level's vertices
+  std::vector<std::uint32_t> before_;   // of the level below
+};
+
+Solid prism(const Section& section, const Rational& lower, const Rational& upper,
+            const Rational& scale) {
+  Sweep sweep(section);
+  sweep.begin(lower);
+  std::vector<Point2> top = section.points;
+  for (Point2& p : top) p = {scale * p.x, scale * p.y};
+  sweep.add_planar_level(top, upper);
+  if (scale != 0) sweep.end();
+  // Every section between is a scaled copy of the outline: nothing can cross.
+  if (section.convex) {
+    return Solid::primitive({make_convex_polytope_unchecked(sweep.take())});
+  }
+  return Solid::primitive({make_mesh_unchecked(sweep.take())});
+}
+
+Solid prisms(const Outline& outline, const Rational& lower, const Rational& upper,
+             const Rational& scale) {
+  std::vector<Solid> members;
+  for (const OutlineComponent& component : outline.components) {
+    members.push_back(prism(section_of(outline, component), lower, upper, scale));
+  }
+  return unite_all(std::move(members));
+}
+
+HalfSpace above(const Rational& z) { return make_half_space(0, 0, -1, z); }
+HalfSpace below(const Rational& z) { return make_half_space(0, 0, 1, -z); }
+
+Solid slab(const Rational& lower, const Rational& upper) {
+  return csg::intersect(Solid::primitive({above(lower)}), Solid::primitive({below(upper)}));
+}
+
+void check(const std::vector<Level>& levels) {
+  for (std::size_t j = 0; j < levels.size(); ++j) {
+    const Level& level = levels[j];
+    const bool last = j + 1 == levels.size();
+    for (const Rational& scale : level.scale) {
+      if (scale < 0 || (scale == 0 && !last)) {
+        throw Error(ErrorId::BadArgument,
+                    {"scale " + to_text(scale), "a positive scale, or 0 at the top"});
+      }
+    }
+  }
+}
+
+// The turn from one level to the next goes against OpenSCAD's positive twist, or there is none.
+bool turns_back(const Level& from, const Level& to) {
+  return from.cosine * to.sine - from.sine * to.cosine >= 0;
+}
+
+Solid sweep_through(const Section& section, const std::vector<Level>& levels,
+                    const LinearExtrusion& extrusion) {
+  Sweep sweep(section);
+  sweep.begin(extrusion.lower);
+  Level before{1, 0, {1, 1}};
+  const Rational height = extrusion.upper - extrusion.lower;
+  for (std::size_t j = 0; j < levels.size(); ++j) {
+    std::vector<Point2> points = section.points;
+    for (Point2& p : points) p = apply(levels[j], p);
+    const Rational z =
+        j + 1 == levels.size()
+            ? extrusion.upper
+            : Rational(extrusion.lower + height * static_cast<unsigned long>(j + 1) /
+                                             static_cast<unsigned long>(levels.size()));
+    sweep.add_split_level(points, z, turns_back(before, levels[j]));
+    before = levels[j];
+  }
+  const auto& top = levels.back().scale;
+  if (top[0] != 0 && top[1] != 0) {
+    sweep.end();
+  } else if (top[0] != 0 || top[1] != 0) {
+    sweep.subdivide_ridge();
+  }
+  return Solid::primitive({make_mesh(sweep.take())});
+}
+
+}  // namespace
+
+Solid linear_extrude(const PlanarTree& tree, const LinearExtrusion& extrusion) {
+  if (extrusion.lower >= extrusion.upper) return Solid::empty();
+  std::vector<Level> levels = extrusion.levels;
+  if (levels.empty()) levels.push_back({1, 0, extrusion.scale});
+  check(levels);
+  const bool straight = std::all_of(levels.begin(), levels.end(), is_identity);
+  if (straight) {
+    return substitute(tree, slab(extrusion.lower, extrusion.upper),
+                      [&](const PlanarFigure& figure) {
+                        return prisms(outline_of(figure), extrusion.lower, extrusion.upper, 1);
+                      });
+  }
+  const Outline outline = outline_of(tree);
+  if (levels.size() == 1 && levels[0].cosine == 1 && levels[0].sine == 0 &&
+      levels[0].scale[0] == levels[0].scale[1]) {
+    return prisms(outline, extrusion.lower, extrusion.upper, levels[0].scale[0]);
+  }
+  std::vector<Solid> members;
+  for (const OutlineComponent& component : outline.components) {
+    members.push_back(sweep_through(section_of(outline, component), levels, extrusion));
+  }
+  return unite_all(std::move(members));
+}
+
+}  // namespace exactcsg::io
