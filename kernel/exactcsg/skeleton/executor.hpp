@@ -34,6 +34,7 @@
 #include <variant>
 #include <vector>
 
+#include "exactcsg/skeleton/hand_over.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg::skeleton {
@@ -133,14 +134,17 @@ class ParallelRun {
  private:
   Array<Result> all(std::vector<Problem>& parts, unsigned levels) const {
     std::vector<std::optional<Result>> slots(parts.size());
+    const TakeOverAtEnd before_unwinding(&slots);
     tbb::task_group group;
     for (std::size_t i = 1; i < parts.size(); ++i) {
-      group.run([&, i] { slots[i].emplace((*this)(std::move(parts[i]), levels)); });
+      const auto work = [&, i] { slots[i].emplace((*this)(std::move(parts[i]), levels)); };
+      group.run(HandedOver(work, &slots));
     }
     const auto first = [&] {
       if (!parts.empty()) slots[0].emplace((*this)(std::move(parts[0]), levels));
     };
     if (group.run_and_wait(first) == tbb::canceled) throw Interrupted{};
+    take_over(&slots);
     Array<Result> results;
     results.reserve(slots.size());
     for (std::optional<Result>& slot : slots) results.push_back(std::move(*slot));
@@ -186,10 +190,15 @@ class ParallelExecutor {
     const detail::ParallelRun<A, WorthATask> parallel(algorithm, worth_a_task_);
     std::optional<typename A::Result> result;
     tbb::task_arena arena(concurrency());
-    arena.execute([&] {
+    const detail::TakeOverAtEnd before_unwinding(&result);
+    detail::hand_over(&arena);
+    arena.execute([&] {  // perhaps by another thread, if all places of the arena are taken
+      detail::take_over(&arena);
+      const detail::HandOverAtEnd done(&result);
       tbb::task_group group;  // so that an outer computation's cancellation is not taken for ours
       group.run_and_wait([&] { result.emplace(parallel(std::move(problem), levels_)); });
     });
+    detail::take_over(&result);
     if (!result) throw Error(ErrorId::Cancelled, {"an enclosing group of tasks", ""});
     return std::move(*result);
   }
