@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "exactcsg/io/planar/constrained_triangulation.hpp"
+#include "exactcsg/io/planar/exact_kernel.hpp"
 #include "exactcsg/io/planar/outline.hpp"
 
 namespace exactcsg::io {
@@ -45,15 +46,27 @@ std::vector<Side> sides_of(const std::vector<TriangleIndices>& triangles) {
 }  // namespace
 
 std::vector<PlanarLoop> convex_parts(const Outline& outline, const OutlineComponent& component) {
-  if (outline.convex) return {component.loops[0]};
-  std::unordered_map<std::uint32_t, ExactPoint2> points;
-  for (const PlanarLoop& loop : component.loops) {
-    for (const std::uint32_t v : loop) points.try_emplace(v, exact_point(outline.points[v]));
+  if (component.convex) return component.loops;
+  // The component's points under numbers of their own: an outline may have many components.
+  std::vector<PlanarLoop> loops = component.loops;
+  std::vector<std::uint32_t> used;
+  std::vector<Point2> coordinates;
+  std::unordered_map<std::uint32_t, std::uint32_t> number;
+  for (PlanarLoop& loop : loops) {
+    for (std::uint32_t& v : loop) {
+      const auto [at, added] = number.try_emplace(v, static_cast<std::uint32_t>(used.size()));
+      if (added) {
+        used.push_back(v);
+        coordinates.push_back(outline.points[v]);
+      }
+      v = at->second;
+    }
   }
-  const auto point = [&](std::uint32_t v) -> const ExactPoint2& { return points.at(v); };
-  std::vector<Side> sides = sides_of(triangulate_loops(component.loops, point));
+  std::vector<ExactPoint2> points;
+  for (const Point2& p : coordinates) points.push_back(exact_point(p));
+  std::vector<Side> sides = sides_of(triangulate_loops(loops, coordinates));
   const auto origin_point = [&](std::uint32_t side) -> const ExactPoint2& {
-    return point(sides[side].origin);
+    return points[sides[side].origin];
   };
   // Strictly convex at the origin of `side` once `side` and its opposite are gone.
   const auto spares = [&](std::uint32_t side) {
@@ -79,7 +92,7 @@ std::vector<PlanarLoop> convex_parts(const Outline& outline, const OutlineCompon
     PlanarLoop& part = parts.emplace_back();
     for (std::uint32_t side = start; !dropped[side]; side = sides[side].next) {
       dropped[side] = true;
-      part.push_back(sides[side].origin);
+      part.push_back(used[sides[side].origin]);
     }
   }
   return parts;

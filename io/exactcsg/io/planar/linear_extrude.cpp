@@ -33,7 +33,7 @@ Section section_of(const Outline& outline, const OutlineComponent& component) {
   Section section;
   section.loops = component.loops;
   section.parts = convex_parts(outline, component);
-  section.convex = outline.convex;
+  section.convex = component.convex;
   std::unordered_map<std::uint32_t, std::uint32_t> number;
   for (PlanarLoop& loop : section.loops) {
     for (std::uint32_t& v : loop) {
@@ -72,12 +72,15 @@ class Sweep {
     });
   }
 
-  void add_split_level(const std::vector<Point2>& points, const Rational& z, bool turns_back) {
+  // `choose(below_a, below_b, above_a, above_b, outer)`: split along the diagonal from below a to
+  // above b, not from below b to above a.
+  template <class Choose>
+  void add_split_level(const std::vector<Point2>& points, const Rational& z, Choose&& choose) {
     const std::vector<Point2> below = points_;
     step(points, z);
     for (std::size_t loop = 0; loop < section_.loops.size(); ++loop) {
       each_side_of(section_.loops[loop], [&](std::uint32_t a, std::uint32_t b) {
-        if (takes_first_diagonal(below[a], points[b], below[b], points[a], loop == 0, turns_back)) {
+        if (choose(below[a], below[b], points[a], points[b], loop == 0)) {
           add_facet({before_[a], before_[b], numbers_[b]});
           add_facet({before_[a], numbers_[b], numbers_[a]});
         } else {
@@ -164,28 +167,6 @@ class Sweep {
     if (distinct.size() >= 3) polyhedron_.facets.push_back(std::move(distinct));
   }
 
-  // OpenSCAD 2021.01 compares the diagonals' lengths and calls them equal within ten parts in a
-  // million of their mean; then the direction of the twist and the sense of the loop decide, so
-  // that neighbouring quadrilaterals are split alike. Our test |p - q| 1e5 <= p + q of the squared
-  // lengths is the same one, up to the square of the tolerance.
-  static bool takes_first_diagonal(const Point2& a_below, const Point2& b_above,
-                                   const Point2& b_below, const Point2& a_above, bool outer,
-                                   bool turns_back) {
-    const auto squared = [](const Point2& p, const Point2& q) {
-      const Rational x = p.x - q.x;
-      const Rational y = p.y - q.y;
-      return Rational(x * x + y * y);
-    };
-    const Rational first = squared(a_below, b_above);
-    const Rational second = squared(b_below, a_above);
-    const Rational difference = first - second;
-    if (abs(difference) * 100'000 <= first + second) {
-      const bool flip = !outer != turns_back;
-      return !flip;
-    }
-    return difference < 0;
-  }
-
   const Section& section_;
   Polyhedron polyhedron_;
   std::vector<Point2> points_;          // of the present level
@@ -217,6 +198,44 @@ Solid prisms(const Outline& outline, const Rational& lower, const Rational& uppe
   return unite_all(std::move(members));
 }
 
+// OpenSCAD 2021.01 compares the diagonals' lengths and calls them equal within ten parts in a
+// million of their mean; then the direction of the twist and the sense of the loop decide, so that
+// neighbouring quadrilaterals are split alike. Our test |p - q| 1e5 <= p + q of the squared lengths
+// is the same one, up to the square of the tolerance. Below a ridge it takes the other diagonal.
+struct DiagonalOfOpenScad {
+  bool turns_back;
+  bool below_ridge;
+
+  static Rational squared_distance(const Point2& p, const Point2& q) {
+    const Rational x = p.x - q.x;
+    const Rational y = p.y - q.y;
+    return x * x + y * y;
+  }
+  bool operator()(const Point2& below_a, const Point2& below_b, const Point2& above_a,
+                  const Point2& above_b, bool outer) const {
+    const Rational first = squared_distance(below_a, above_b);
+    const Rational second = squared_distance(below_b, above_a);
+    const Rational difference = first - second;
+    const bool equal = abs(difference) * 100'000 <= first + second;
+    const bool shorter_first = equal ? outer != turns_back : difference < 0;
+    return shorter_first != below_ridge;
+  }
+};
+
+// Below a ridge along x (or y), a triangle with a side on the ridge lies in a plane through the
+// ridge, in which a whole side of the outline may lie too. The diagonal that puts it beside that
+// side, not onto it, is the one from the corner whose horizontal (vertical) line towards the other
+// corner leaves the figure.
+struct DiagonalOutsideTheFigure {
+  bool ridge_along_x;
+
+  bool operator()(const Point2& below_a, const Point2& below_b, const Point2&, const Point2&,
+                  bool) const {
+    const Sign product = sign_of(cmp(below_b.x, below_a.x)) * sign_of(cmp(below_b.y, below_a.y));
+    return product == (ridge_along_x ? Sign::Positive : Sign::Negative);
+  }
+};
+
 HalfSpace above(const Rational& z) { return make_half_space(0, 0, -1, z); }
 HalfSpace below(const Rational& z) { return make_half_space(0, 0, 1, -z); }
 
@@ -242,22 +261,27 @@ bool turns_back(const Level& from, const Level& to) {
   return from.cosine * to.sine - from.sine * to.cosine >= 0;
 }
 
-Solid sweep_through(const Section& section, const std::vector<Level>& levels,
-                    const LinearExtrusion& extrusion) {
+enum class RidgeDiagonals { OfOpenScad, OutsideTheFigure };
+
+Polyhedron sweep_through(const Section& section, const std::vector<Level>& levels,
+                         const LinearExtrusion& extrusion, RidgeDiagonals ridge_diagonals) {
   Sweep sweep(section);
   sweep.begin(extrusion.lower);
   Level before{1, 0, {1, 1}};
   const Rational height = extrusion.upper - extrusion.lower;
+  const auto count = static_cast<unsigned long>(levels.size());
   for (std::size_t j = 0; j < levels.size(); ++j) {
+    const Level& level = levels[j];
     std::vector<Point2> points = section.points;
-    for (Point2& p : points) p = apply(levels[j], p);
-    const Rational z =
-        j + 1 == levels.size()
-            ? extrusion.upper
-            : Rational(extrusion.lower + height * static_cast<unsigned long>(j + 1) /
-                                             static_cast<unsigned long>(levels.size()));
-    sweep.add_split_level(points, z, turns_back(before, levels[j]));
-    before = levels[j];
+    for (Point2& p : points) p = apply(level, p);
+    const Rational z = extrusion.lower + height * static_cast<unsigned long>(j + 1) / count;
+    const bool ridge = level.scale[0] == 0 || level.scale[1] == 0;
+    if (ridge && ridge_diagonals == RidgeDiagonals::OutsideTheFigure) {
+      sweep.add_split_level(points, z, DiagonalOutsideTheFigure{level.scale[0] != 0});
+    } else {
+      sweep.add_split_level(points, z, DiagonalOfOpenScad{turns_back(before, level), ridge});
+    }
+    before = level;
   }
   const auto& top = levels.back().scale;
   if (top[0] != 0 && top[1] != 0) {
@@ -265,7 +289,23 @@ Solid sweep_through(const Section& section, const std::vector<Level>& levels,
   } else if (top[0] != 0 || top[1] != 0) {
     sweep.subdivide_ridge();
   }
-  return Solid::primitive({make_mesh(sweep.take())});
+  return sweep.take();
+}
+
+// OpenSCAD's choice of diagonals under a ridge can fold a side over onto its neighbour ("ears");
+// where it does, the diagonals that cannot are taken.
+Solid swept_solid(const Section& section, const std::vector<Level>& levels,
+                  const LinearExtrusion& extrusion) {
+  const auto& top = levels.back().scale;
+  const bool ridge = (top[0] == 0) != (top[1] == 0);
+  try {
+    return Solid::primitive(
+        {make_mesh(sweep_through(section, levels, extrusion, RidgeDiagonals::OfOpenScad))});
+  } catch (const Error& error) {
+    if (!ridge || error.id() != ErrorId::SelfIntersectingMesh) throw;
+  }
+  return Solid::primitive(
+      {make_mesh(sweep_through(section, levels, extrusion, RidgeDiagonals::OutsideTheFigure))});
 }
 
 }  // namespace
@@ -289,7 +329,7 @@ Solid linear_extrude(const PlanarTree& tree, const LinearExtrusion& extrusion) {
   }
   std::vector<Solid> members;
   for (const OutlineComponent& component : outline.components) {
-    members.push_back(sweep_through(section_of(outline, component), levels, extrusion));
+    members.push_back(swept_solid(section_of(outline, component), levels, extrusion));
   }
   return unite_all(std::move(members));
 }

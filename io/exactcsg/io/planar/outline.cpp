@@ -156,7 +156,8 @@ class Tracer {
         throw Error(ErrorId::InternalError, {"a planar component without an outer loop", ""});
       }
       std::iter_swap(piece_loops.begin(), outer);
-      outline.components.push_back({std::move(piece_loops)});
+      const bool convex = piece_loops.size() == 1 && is_strictly_convex(piece_loops[0]);
+      outline.components.push_back({std::move(piece_loops), convex});
     }
     number_used_points(outline);
     return outline;
@@ -231,6 +232,18 @@ class Tracer {
                            points_[loop[(at + 1) % loop.size()]]);
   }
 
+  // The loop is simple and counter-clockwise.
+  bool is_strictly_convex(const PlanarLoop& loop) const {
+    const std::size_t n = loop.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!CGAL::left_turn(points_[loop[i]], points_[loop[(i + 1) % n]],
+                           points_[loop[(i + 2) % n]])) {
+        return false;
+      }
+    }
+    return true;
+  }
+
   void number_used_points(Outline& outline) const {
     std::vector<std::uint32_t> number(points_.size(), none);
     for (OutlineComponent& component : outline.components) {
@@ -262,16 +275,8 @@ Outline convex_outline(std::vector<Point2> polygon) {
   outline.points = std::move(polygon);
   PlanarLoop loop(outline.points.size());
   for (std::uint32_t i = 0; i < loop.size(); ++i) loop[i] = i;
-  outline.components.push_back({{std::move(loop)}});
-  outline.convex = true;
+  outline.components.push_back({{std::move(loop)}, true});
   return outline;
-}
-
-void find_convex(Outline& outline) {
-  if (outline.components.size() != 1 || outline.components[0].loops.size() != 1) return;
-  std::vector<Point2> path;
-  for (const std::uint32_t v : outline.components[0].loops[0]) path.push_back(outline.points[v]);
-  if (auto polygon = strictly_convex(path)) outline = convex_outline(std::move(*polygon));
 }
 
 }  // namespace
@@ -335,9 +340,7 @@ Outline outline_of(const PlanarTree& tree) {
   Overlay cells;
   overlay(network.figures(), cells);
   const std::vector<bool> inside = cells_inside(cells, network);
-  Outline outline = Tracer(cells, inside).trace();
-  find_convex(outline);
-  return outline;
+  return Tracer(cells, inside).trace();
 }
 
 Outline outline_of(const PlanarFigure& figure) { return outline_of(PlanarTree::primitive(figure)); }

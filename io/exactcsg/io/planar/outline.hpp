@@ -22,13 +22,12 @@ using PlanarLoop = std::vector<std::uint32_t>;  // indices of Outline::points
 
 struct OutlineComponent {
   std::vector<PlanarLoop> loops;
+  bool convex = false;  // one loop, strictly convex
 };
 
 struct Outline {
   std::vector<Point2> points;
   std::vector<OutlineComponent> components;
-  // The set is one strictly convex polygon.
-  bool convex = false;
 };
 
 // THROWS Error(UnboundedSolid) if the set is unbounded.

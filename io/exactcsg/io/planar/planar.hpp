@@ -62,17 +62,19 @@ struct LinearExtrusion {
 // Without twist and scale: the tree itself with every figure as a prism (no Boolean is evaluated in
 // two dimensions). Otherwise the resolved outline's swept mesh, one for each connected component,
 // quadrilaterals split along the shorter diagonal in xy as OpenSCAD does; scale 0 ends in an apex
-// or a ridge. Empty if lower >= upper. THROWS Error(BadArgument) for a negative scale, or a scale
-// of 0 below the top;
-//        Error(SelfIntersectingMesh) if the twist of a slice makes the sides cross.
+// or a ridge. Empty if lower >= upper.
+//
+// THROWS Error(BadArgument) for a negative scale, or a scale of 0 below the top; and
+// Error(SelfIntersectingMesh) if the twist of a slice makes the sides cross.
 Solid linear_extrude(const PlanarTree& tree, const LinearExtrusion& extrusion);
 
 // The outline turned about the z axis through the given directions, one per ring: its point (x, y)
-// becomes (x u, y) for the direction u. All x >= 0, or all x <= 0. The directions go once round at
-// most, in either sense; `closed` joins the last ring to the first. One primitive for each
-// connected component. Empty if two rings are all there is and they lie in one plane. THROWS
-// Error(BadArgument) if the outline lies on both sides of x = 0, or if the directions turn back or
-// go round more than once.
+// becomes (|x| u, y) for the direction u. The directions go once round at most, in either sense;
+// `closed` joins the last ring to the first. One primitive for each connected component. Empty if
+// two rings are all there is and they lie in one plane.
+//
+// THROWS Error(BadArgument) if the outline lies on both sides of x = 0, or if the directions turn
+// back or go round more than once.
 Solid rotate_extrude(const PlanarTree& tree, std::span<const std::array<Rational, 2>> directions,
                      bool closed);
 

@@ -4,6 +4,7 @@
 // direction u, so two sides of the quadrilateral between rings u and v are multiples of v - u.
 
 #include <algorithm>
+#include <utility>
 
 #include "exactcsg/io/planar/outline.hpp"
 #include "exactcsg/io/planar/substitute.hpp"
@@ -118,16 +119,18 @@ class Revolution {
   // A convex outline whose lowest and highest points lie on the axis, turned once round through a
   // convex polygon: the radius is a concave function of the height.
   bool is_convex() const {
-    if (!closed_ || !outline_.convex || !strictly_convex_directions(directions_)) return false;
-    const auto lower = [&](const Point2& p, const Point2& q) { return p.y < q.y; };
-    const auto [low, high] =
-        std::minmax_element(outline_.points.begin(), outline_.points.end(), lower);
-    std::vector<Rational> axis;
-    for (const Point2& p : outline_.points) {
-      if (p.x == 0) axis.push_back(p.y);
+    if (!closed_ || !component_.convex || !strictly_convex_directions(directions_)) return false;
+    std::vector<Rational> heights;
+    std::vector<Rational> axis_heights;
+    for (const std::uint32_t v : component_.loops[0]) {
+      heights.push_back(outline_.points[v].y);
+      if (on_axis(v)) axis_heights.push_back(outline_.points[v].y);
     }
-    return axis.size() == 2 && std::min(axis[0], axis[1]) == low->y &&
-           std::max(axis[0], axis[1]) == high->y;
+    const auto range = [](const std::vector<Rational>& values) {
+      const auto [low, high] = std::minmax_element(values.begin(), values.end());
+      return std::pair(*low, *high);
+    };
+    return axis_heights.size() == 2 && range(axis_heights) == range(heights);
   }
 
   // The outline has the set on its left; seen along the direction of turning, x to the left.
@@ -177,7 +180,7 @@ class Revolution {
 
 Solid rotate_extrude(const PlanarTree& tree, std::span<const std::array<Rational, 2>> directions,
                      bool closed) {
-  std::vector<Direction> rings = counter_clockwise(directions, closed);
+  const std::vector<Direction> rings = counter_clockwise(directions, closed);
   if (rings.empty()) return Solid::empty();
   Outline outline = outline_of(tree);
   bool left = false;
@@ -191,12 +194,10 @@ Solid rotate_extrude(const PlanarTree& tree, std::span<const std::array<Rational
                 {"an outline on both sides of the axis x = 0", "all x >= 0, or all x <= 0"});
   }
   if (left) {
-    // (x, y) on ring u is (-x, y) on ring -u.
     for (Point2& p : outline.points) p.x = -p.x;
     for (OutlineComponent& component : outline.components) {
       for (PlanarLoop& loop : component.loops) std::reverse(loop.begin(), loop.end());
     }
-    for (Direction& d : rings) d = {-d[0], -d[1]};
   }
   std::vector<Solid> members;
   for (const OutlineComponent& component : outline.components) {
