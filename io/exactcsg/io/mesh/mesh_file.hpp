@@ -18,7 +18,8 @@ namespace exactcsg::io {
 enum class MeshFormat { Off, StlAscii, StlBinary, Obj, Ply };
 
 // What the file says: coordinates as the exact values of the doubles (or, for decimal formats, of
-// the decimals) in it. For STL, equal coordinates are one vertex; nothing else is merged or repaired.
+// the decimals) in it. For STL, equal coordinates are one vertex; nothing else is merged or
+// repaired.
 struct PolygonSoup {
   MeshFormat format = MeshFormat::Off;
   std::vector<Point3> vertices;
@@ -32,14 +33,15 @@ struct PolygonSoup {
 //              NumberOutOfRange | UnknownVertex)
 PolygonSoup read_polygon_soup(const std::filesystem::path& file);
 
-// Triangles of every face by constrained triangulation of its loops with exact predicates: no vertex
-// is added, every boundary edge is an edge of triangles, so the surface is watertight. [Exact]
+// Triangles of every face by constrained triangulation of its loops with exact predicates: no
+// vertex is added, every boundary edge is an edge of triangles, so the surface is watertight.
+// [Exact]
 std::vector<std::array<std::uint32_t, 3>> triangulate(const Boundary& boundary);
 
 struct WriteReport {
   std::size_t triangles = 0;
-  double largest_rounding = 0;        // of a coordinate
-  std::size_t merged_vertices = 0;    // distinct vertices that became equal by rounding
+  double largest_rounding = 0;      // of a coordinate
+  std::size_t merged_vertices = 0;  // distinct vertices that became equal by rounding
   std::size_t degenerate_triangles = 0;
 };
 // Format by ending: .off .stl (binary) .obj .ply. Doubles with 17 digits where the format is text.
