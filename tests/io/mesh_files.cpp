@@ -275,7 +275,7 @@ Boundary cube_with_hole() {
   Boundary boundary;
   const auto add = [&](int x, int y, int z) {
     // A third, so that no coordinate is a double.
-    boundary.vertices.push_back({Rational(x, 3), Rational(y, 3), Rational(z, 3)});
+    boundary.vertices.push_back({Rational(x) / 3, Rational(y) / 3, Rational(z) / 3});
   };
   for (const int z : {0, 4}) {
     for (const auto& [x, y] : {std::pair(0, 0), {4, 0}, {4, 4}, {0, 4}}) add(x, y, z);
@@ -328,7 +328,7 @@ TEST(MeshTriangulate, FacesWithHolesWithoutNewVertices) {
   // A closed surface of genus 0 with V vertices has 2 V - 4 triangles.
   EXPECT_EQ(facets.size(), 2U * 16 - 4);
   EXPECT_TRUE(edges_balance(facets));
-  EXPECT_EQ(volume_of(boundary.vertices, facets), Rational(64 - 4, 27));
+  EXPECT_EQ(volume_of(boundary.vertices, facets), Rational(64 - 4) / 27);
   make_mesh({boundary.vertices, facets});  // planar, closed, not crossing
 }
 

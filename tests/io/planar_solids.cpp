@@ -150,7 +150,7 @@ TEST(PlanarLinearExtrude, ManySlicesHolesAndScale) {
     const Rational c1 = c * cos - s * sin;
     s = s * cos + c * sin;
     c = c1;
-    const Rational k = 1 - Rational(j, 2 * slices);
+    const Rational k = 1 - Rational(j) / (2 * slices);
     extrusion.levels.push_back({c, s, {k, k}});
   }
   const PlanarTree ring = csg::subtract(figure({circle(0, 0, 5, 20)}), box(-1, -1, 1, 2));
@@ -240,7 +240,7 @@ TEST(PlanarRotateExtrude, BipyramidsAndConvexity) {
   const PlanarTree crater = figure({{{0, 1}, {1, 0}, {3, 0}, {0, 6}}});
   const Solid solid = rotate_extrude(crater, quarters, true);
   EXPECT_FALSE(all_convex(solid));
-  EXPECT_EQ(checked_volume(solid), Rational(2 * 9 * 6, 3) - Rational(2, 3));
+  EXPECT_EQ(checked_volume(solid), 2 * 9 * 6 / 3 - Rational(2, 3));
   // A point on the axis only: two cones that share their apex with the outside.
   const Solid pinched = rotate_extrude(figure({{{0, 3}, {2, 0}, {2, 6}}}), quarters, true);
   EXPECT_EQ(checked_volume(pinched), 2 * 4 * 6 - 2 * (Rational(2 * 4 * 3) / 3));
@@ -326,7 +326,7 @@ TEST(PlanarHull3, FlatSetsAreEmpty) {
   EXPECT_TRUE(hull(std::vector<Point3>(7, {1, 2, 3})).is_empty());
   EXPECT_TRUE(hull(std::vector<Point3>{{0, 0, 0}, {1, 1, 1}, {3, 3, 3}, {2, 2, 2}}).is_empty());
   std::vector<Point3> plane;
-  for (int i = 0; i < 9; ++i) plane.push_back({i % 3, i / 3, Rational(i % 3 + i / 3, 3)});
+  for (int i = 0; i < 9; ++i) plane.push_back({i % 3, i / 3, Rational(i % 3 + i / 3) / 3});
   EXPECT_TRUE(hull(plane).is_empty());
   // A third of a unit, no double: exactly not flat by 10^-40.
   plane.push_back({0, 0, Rational("1/10000000000000000000000000000000000000000")});
