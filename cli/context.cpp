@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "cli/command.hpp"
+
+namespace exactcsg::cli {
+
+EvaluateOptions Context::evaluate_options() {
+  EvaluateOptions options;
+  options.threads = common_.threads;
+  options.progress = &progress_;
+  return options;
+}
+
+void Context::warn(std::string text) {
+  if (common_.quiet) return;
+  const std::scoped_lock lock(mutex_);
+  warnings_.push_back(std::move(text));
+}
+
+std::vector<std::string> Context::take_warnings() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(warnings_, {});
+}
+
+io::Model read(Context& context, const std::filesystem::path& file) {
+  io::ReadOptions options;
+  options.progress = &context.progress();
+  context.progress().begin("read", 0);
+  io::Model model = io::read_model(file, options);
+  if (!model.front_end_messages.empty()) context.warn("openscad: " + model.front_end_messages);
+  for (const io::Warning& warning : model.warnings) {
+    const SourcePosition& at = warning.position;
+    context.warn(at.line == 0 ? fmt::format("{}: warning: {}", at.file, warning.text)
+                              : fmt::format("{}:{}:{}: warning: {}", at.file, at.line, at.column,
+                                            warning.text));
+  }
+  return model;
+}
+
+}  // namespace exactcsg::cli

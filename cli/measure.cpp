@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "exactcsg/number/enclosure.hpp"
+#include "exactcsg/solid/figures.hpp"
+
+namespace exactcsg::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::string model;
+  int digits = 17;
+  bool json = false;
+};
+
+// Longer fractions are of no use to a reader of JSON; the decimal has any number of digits.
+constexpr std::size_t longest_exact_text = 1000;
+constexpr std::size_t longest_exact_bits = 3322;  // of a number of 1000 digits
+
+using Triple = std::array<std::string, 3>;
+
+struct Measurement {
+  MeasuredFigures figures;
+  std::optional<std::string> exact_volume;
+  std::optional<std::array<Triple, 2>> box;
+  Topology topology;
+  std::string digest;
+  std::size_t primitives = 0;
+  EvaluationStatistics statistics;
+  double seconds = 0;
+};
+
+Triple decimals(const Point3& point, int digits) {
+  return {to_decimal(point.x, digits), to_decimal(point.y, digits), to_decimal(point.z, digits)};
+}
+
+Measurement take(Context& context, const io::Model& model, int digits) {
+  Measurement result;
+  const Boundary boundary = evaluate(model.solid, context.evaluate_options());
+  context.progress().begin("measure", 0);
+  result.figures = measure(boundary, digits, longest_exact_bits);
+  context.progress().check();
+  for (const std::string& figure : result.figures.unproved) {
+    context.warn(fmt::format("{}: warning: last digit not proved: {}", model.name, figure));
+  }
+  if (result.figures.exact_volume) {
+    std::string text = to_text(*result.figures.exact_volume);
+    if (text.size() <= longest_exact_text) result.exact_volume = std::move(text);
+  }
+  if (const auto& box = result.figures.bounding_box) {
+    result.box = {decimals(box->lower, digits), decimals(box->upper, digits)};
+  }
+  result.topology = topology(boundary);
+  context.progress().check();
+  result.digest = digest(boundary);
+  result.primitives = model.primitives;
+  result.statistics = boundary.statistics;
+  return result;
+}
+
+Json tiers(const TierStatistics& statistics) {
+  constexpr std::array<const char*, tier_count> names{"symbolic", "double", "fixed", "unbounded"};
+  Json result;
+  for (std::size_t i = 0; i < tier_count; ++i) {
+    result[names[i]] = {{"answers", statistics.answers[i]}, {"zeros", statistics.zeros[i]}};
+  }
+  return result;
+}
+
+// schema exactcsg.measure/1: decimals are text, because they may have more digits than a double.
+std::string as_json(const Measurement& m) {
+  Json document;
+  document["schema"] = "exactcsg.measure/1";
+  document["volume"]["decimal"] = m.figures.volume_decimal;
+  document["volume"]["exact"] = m.exact_volume ? Json(*m.exact_volume) : Json(nullptr);
+  document["area"]["decimal"] = m.figures.area_decimal;
+  document["centroid"] =
+      m.figures.centroid_decimals ? Json(*m.figures.centroid_decimals) : Json(nullptr);
+  document["bounding_box"] =
+      m.box ? Json{{"lower", (*m.box)[0]}, {"upper", (*m.box)[1]}} : Json(nullptr);
+  document["vertices"] = m.topology.vertices;
+  document["edges"] = m.topology.edges;
+  document["faces"] = m.topology.faces;
+  document["components"] = m.topology.components;
+  document["cavities"] = m.topology.cavities;
+  document["genus"] = m.topology.genus;
+  document["digest"] = m.digest;
+  document["primitives"] = m.primitives;
+  document["seconds"] = m.seconds;
+  document["stats"] = {{"tiers", tiers(m.statistics.tiers)},
+                       {"facets", m.statistics.facets},
+                       {"cells", m.statistics.cells},
+                       {"evaluated_cells", m.statistics.evaluated_cells},
+                       {"pieces", m.statistics.pieces}};
+  return document.dump(2) + "\n";
+}
+
+std::string as_text(const Measurement& m) {
+  std::string text;
+  const auto row = [&](std::string_view name, const auto& value) {
+    text += fmt::format("{:<16} {}\n", name, value);
+  };
+  const auto triple = [](const Triple& t) { return fmt::format("({}, {}, {})", t[0], t[1], t[2]); };
+  row("volume", m.figures.volume_decimal);
+  if (m.exact_volume && *m.exact_volume != m.figures.volume_decimal &&
+      m.exact_volume->size() <= 80) {
+    row("  exactly", *m.exact_volume);
+  }
+  row("area", m.figures.area_decimal);
+  if (m.figures.centroid_decimals) row("centre of mass", triple(*m.figures.centroid_decimals));
+  if (m.box) {
+    row("bounding box", fmt::format("{} to {}", triple((*m.box)[0]), triple((*m.box)[1])));
+  }
+  row("vertices", m.topology.vertices);
+  row("edges", m.topology.edges);
+  row("faces", m.topology.faces);
+  row("components", m.topology.components);
+  if (m.topology.cavities != 0) row("cavities", m.topology.cavities);
+  row("genus", m.topology.genus);
+  row("digest", m.digest);
+  row("primitives", m.primitives);
+  row("seconds", fmt::format("{:.3f}", m.seconds));
+  return text;
+}
+
+Answer print_measures(Context& context, const Arguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  const io::Model model = read(context, arguments.model);
+  Measurement measurement = take(context, model, arguments.digits);
+  measurement.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  context.print(arguments.json ? as_json(measurement) : as_text(measurement));
+  return Answer::Yes;
+}
+
+}  // namespace
+
+Command add_measure(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "measure", "Volume, area, centre of mass, bounding box, counts, genus and digest.");
+  command->add_option("MODEL", arguments->model, "the model")->required();
+  command
+      ->add_option("--digits", arguments->digits,
+                   "significant digits of decimals, correctly rounded")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "one JSON object, schema exactcsg.measure/1");
+  return {command, [arguments](Context& context) { return print_measures(context, *arguments); }};
+}
+
+}  // namespace exactcsg::cli

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "exactcsg/verify/verify.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/output_file.hpp"
+#include "cli/terminal.hpp"
+#include "exactcsg/support/version.hpp"
+#include "exactcsg/verify/report.hpp"
+
+namespace exactcsg::cli {
+
+namespace {
+
+struct Arguments {
+  std::string model;
+  std::vector<std::string> against;
+  std::string golden;
+  std::string golden_name;
+  std::vector<std::string> required;
+  std::vector<std::string> without;
+  std::vector<std::string> reports;
+  double budget = 60;
+  std::uint64_t seed = 1;
+};
+
+// A slip in a name must not wait for the end of a long verification.
+void check(const Arguments& arguments) {
+  const std::vector<std::string> known = verify::oracle_names();
+  for (const auto* list : {&arguments.required, &arguments.without}) {
+    for (const std::string& name : *list) {
+      if (std::ranges::find(known, name) == known.end()) {
+        throw Error(ErrorId::Usage, {fmt::format("the oracle '{}'", name),
+                                     fmt::format("one of {}", fmt::join(known, ", "))});
+      }
+    }
+  }
+  for (const std::string& file : arguments.reports) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    if (ending != ".json" && ending != ".xml" && ending != ".html" && ending != ".txt") {
+      throw Error(ErrorId::UnknownFormat, {fmt::format("'{}'", ending),
+                                           ".json, .xml, .html or .txt", SourcePosition{file}});
+    }
+  }
+}
+
+Answer verify_one(Context& context, const Arguments& arguments) {
+  check(arguments);
+  const io::Model model = read(context, arguments.model);
+  verify::VerifyOptions options;
+  options.source = arguments.model;
+  options.against.assign(arguments.against.begin(), arguments.against.end());
+  if (!arguments.golden.empty()) options.golden = arguments.golden;
+  options.golden_name = arguments.golden_name;
+  options.required = arguments.required;
+  options.disabled = arguments.without;
+  options.budget_seconds = arguments.budget;
+  options.threads = context.common().threads;
+  options.seed = arguments.seed;
+  options.progress = &context.progress();
+  verify::Report report = verify::verify_model(model, options);
+  if (report.library.empty()) report.library = std::string(version);
+  for (const std::string& file : arguments.reports) {
+    write_file(file, [&](const std::filesystem::path& temporary) {
+      verify::write_report(report, temporary);
+    });
+  }
+  verify::TextStyle style;
+  style.colour = colour_wanted(STDOUT_FILENO);
+  style.width = terminal_width(STDOUT_FILENO);
+  context.print(verify::render_text(report, style));
+  // A verification in which no oracle answered has confirmed nothing: that is no yes.
+  return report.overall() == verify::Verdict::Passed ? Answer::Yes : Answer::No;
+}
+
+}  // namespace
+
+Command add_verify(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "verify", "Hold the exact evaluation of a model against independent oracles.");
+  command->add_option("MODEL", arguments->model, "the model")->required();
+  command
+      ->add_option(
+          "--against", arguments->against,
+          "a mesh file that should be this model (.off, .stl, .obj, .ply); may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command->add_option("--golden", arguments->golden, "a file of golden values")->type_name("FILE");
+  command
+      ->add_option("--golden-name", arguments->golden_name,
+                   "the model's entry in it (default: its file name without ending)")
+      ->type_name("NAME");
+  command
+      ->add_option("--require", arguments->required,
+                   fmt::format("oracles whose skip is a failure, of {}",
+                               fmt::join(verify::oracle_names(), ",")))
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--without", arguments->without, "oracles not to run")
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--budget", arguments->budget, "seconds for each slow oracle")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--report", arguments->reports, "also write .json, .xml (JUnit), .html, .txt")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command->add_option("--seed", arguments->seed, "of the sampling")
+      ->type_name("N")
+      ->capture_default_str();
+  return {command, [arguments](Context& context) { return verify_one(context, *arguments); }, 0};
+}
+
+}  // namespace exactcsg::cli
