@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Runs the command that was built, as a user would.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace exactcsg::cli_test {
+
+struct Finished {
+  int exit_code = -1;  // 128 + signal if it was killed
+  std::string out;
+  std::string err;
+};
+
+// Arguments without the program's name.
+Finished run_command(const std::vector<std::string>& arguments, std::string_view input = {});
+
+// A folder of the test's own, removed at its end.
+class Folder {
+ public:
+  Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder();
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string write(const std::string& name, std::string_view text) const;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_text(const std::filesystem::path& file);
+// A model of data/openscad.
+std::string model(const std::string& name);
+
+}  // namespace exactcsg::cli_test
