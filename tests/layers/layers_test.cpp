@@ -127,5 +127,28 @@ TEST(Licences, PlantedViolationsAreFound) {
           .empty());
 }
 
+// "[text](path)" and "[text](path#place)" with a path inside the project.
+std::vector<std::string> relative_links(const std::string& text) {
+  std::vector<std::string> links;
+  for (auto at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
+    const auto end = text.find_first_of(")# ", at + 2);
+    const std::string link = text.substr(at + 2, end - at - 2);
+    if (!link.empty() && link.find("://") == std::string::npos) links.push_back(link);
+  }
+  return links;
+}
+
+TEST(Documents, LinksLeadSomewhere) {
+  for (const auto& file : our_files(root)) {
+    if (file.extension() != ".md") continue;
+    for (const std::string& link : relative_links(read_text(root / file))) {
+      EXPECT_TRUE(std::filesystem::exists((root / file).parent_path() / link))
+          << file << " links to " << link;
+    }
+  }
+  EXPECT_EQ(relative_links("[a](b.md#c) [d](https://e) [f](g/h.md)"),
+            (std::vector<std::string>{"b.md", "g/h.md"}));
+}
+
 }  // namespace
 }  // namespace exactcsg::house
