@@ -6,14 +6,14 @@
 // A vertex is a point where edges of at least two directions meet; an edge is maximal between
 // vertices; a face is a maximal connected region of one oriented plane, with holes.
 //
-// LAW boundary.1  it depends on the point set alone: not on how the tree is written, on the cells of
-// the decomposition, on the executor or on the number of threads.
-// LAW boundary.2  vertices are sorted lexicographically, edges by (from, to) with from < to, faces
-// by plane and then by their loops; a loop starts at its smallest vertex.
-// LAW boundary.3  for a bounded solid the directed edges of all loops balance: every edge is walked
-// as often in one direction as in the other.
+// LAW boundary.1  it depends on the point set alone: not on how the tree is written, on the cells
+// of the decomposition, on the executor or on the number of threads. LAW boundary.2  vertices are
+// sorted lexicographically, edges by (from, to) with from < to, faces by plane and then by their
+// loops; a loop starts at its smallest vertex. LAW boundary.3  for a bounded solid the directed
+// edges of all loops balance: every edge is walked as often in one direction as in the other.
 //
-// Source: DESIGN section 5 (docs/architecture.md); MEG (longest wires) in the Bath modellers' paper.
+// Source: DESIGN section 5 (docs/architecture.md); MEG (longest wires) in the Bath modellers'
+// paper.
 
 #include <array>
 #include <cstdint>
@@ -75,11 +75,11 @@ struct Topology {
 
 Topology topology(const Boundary& boundary);
 
-// 64 hexadecimal digits: SHA-256 over the sorted exact vertices, edges, oriented planes of faces and
-// sides of faces (docs/digest.md).
-// LAW digest.1  equal boundaries have equal digests, and (but for a collision of SHA-256) equal
-// digests mean the same solid. Vertices, edges and planes without the sides would not do.
-// LAW digest.2  it does not depend on the order of vertices, edges, planes, faces and loops.
+// 64 hexadecimal digits: SHA-256 over the sorted exact vertices, edges, oriented planes of faces
+// and sides of faces (docs/digest.md). LAW digest.1  equal boundaries have equal digests, and (but
+// for a collision of SHA-256) equal digests mean the same solid. Vertices, edges and planes without
+// the sides would not do. LAW digest.2  it does not depend on the order of vertices, edges, planes,
+// faces and loops.
 std::string digest(const Boundary& boundary);
 
 }  // namespace exactcsg

@@ -2,12 +2,14 @@
 #include "exactcsg/solid/canonical_boundary.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 
 #include "exactcsg/solid/box_pairs.hpp"
 #include "exactcsg/solid/face_loops.hpp"
+#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/line_interning.hpp"
 #include "exactcsg/solid/nearest_crossing.hpp"
 #include "exactcsg/solid/vertex_interning.hpp"
@@ -72,8 +74,9 @@ struct LineContent {
 
 class Merger {
  public:
-  Merger(const Geometry& geometry, const std::vector<PieceBuffer>& buffers, Progress* progress)
-      : geometry_(geometry), progress_(progress), faces_(count_pieces(buffers)) {
+  Merger(const Geometry& geometry, const std::vector<PieceBuffer>& buffers, unsigned threads,
+         Progress* progress)
+      : geometry_(geometry), threads_(threads), progress_(progress), faces_(count_pieces(buffers)) {
     number_vertices(buffers);
   }
 
@@ -244,6 +247,7 @@ class Merger {
     std::vector<VertexNumber> stations;
     for (std::size_t begin = 0; begin < order.size();) {
       const LineNumber line = line_of_edge[order[begin]];
+      if (line % 1024 == 0) check();
       std::size_t end = begin;
       stations.clear();
       for (; end < order.size() && line_of_edge[order[end]] == line; ++end) {
@@ -535,24 +539,25 @@ class Merger {
         edges.push_back({owner.plane, faces_.find(owner.piece), from, to});
       });
     }
-    std::vector<VertexNumber> used;
-    for (VertexNumber v = 0; v < vertices_.size(); ++v) {
-      if (is_vertex_[v]) used.push_back(v);
-    }
-    std::sort(used.begin(), used.end(), [&](VertexNumber a, VertexNumber b) {
-      return a != b && geometry_.compare_position(vertices_[a], vertices_[b], statistics_) < 0;
-    });
+    const std::vector<VertexNumber> used = sorted_vertices();
     std::vector<VertexNumber> renumbered(vertices_.size(), none);
-    Boundary boundary;
-    boundary.vertices.reserve(used.size());
-    boundary.approximate.reserve(used.size());
-    for (const VertexNumber v : used) {
-      renumbered[v] = static_cast<VertexNumber>(boundary.vertices.size());
-      boundary.vertices.push_back(geometry_.exact_point(vertices_[v]));
-      const Point3& point = boundary.vertices.back();
-      boundary.approximate.push_back(
-          {nearest_double(point.x), nearest_double(point.y), nearest_double(point.z)});
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      renumbered[used[i]] = static_cast<VertexNumber>(i);
     }
+    Boundary boundary;
+    boundary.vertices.resize(used.size());
+    boundary.approximate.resize(used.size());
+    in_parallel(threads_, used.size(), [&](std::size_t i) {
+      const Vertex& v = vertices_[used[i]];
+      Point3& point = boundary.vertices[i];
+      point = geometry_.exact_point(v);
+      // An input point's doubles are the nearest ones already.
+      boundary.approximate[i] = v.is_point && std::isfinite(v.error)
+                                    ? std::array{v.x, v.y, v.z}
+                                    : std::array{nearest_double(point.x), nearest_double(point.y),
+                                                 nearest_double(point.z)};
+    });
+    check();
     for (FaceEdge& edge : edges) {
       edge.from = renumbered[edge.from];
       edge.to = renumbered[edge.to];
@@ -562,13 +567,40 @@ class Merger {
     std::sort(boundary.edges.begin(), boundary.edges.end());
     boundary.edges.erase(std::unique(boundary.edges.begin(), boundary.edges.end()),
                          boundary.edges.end());
-    link_faces(geometry_, std::move(edges), boundary);
+    link_faces(geometry_, std::move(edges), threads_, boundary);
     boundary.statistics.pieces = statistics_pieces_;
     boundary.statistics.tiers = statistics_;
     return boundary;
   }
 
+  // The vertices in lexicographic order; doubles decide nearly always.
+  std::vector<VertexNumber> sorted_vertices() {
+    struct Keyed {
+      double x;
+      double error;
+      VertexNumber number;
+    };
+    std::vector<Keyed> keyed;
+    for (VertexNumber v = 0; v < vertices_.size(); ++v) {
+      if (!is_vertex_[v]) continue;
+      const double slack = vertices_[v].error + 0x1p-51 * std::abs(vertices_[v].x);
+      keyed.push_back({vertices_[v].x, slack, v});
+    }
+    std::sort(keyed.begin(), keyed.end(), [&](const Keyed& a, const Keyed& b) {
+      const double difference = a.x - b.x;
+      const double reach = a.error + b.error;
+      if (difference < -reach) return true;
+      if (difference > reach || a.number == b.number) return false;
+      return geometry_.compare_position(vertices_[a.number], vertices_[b.number], statistics_) < 0;
+    });
+    std::vector<VertexNumber> result;
+    result.reserve(keyed.size());
+    for (const Keyed& k : keyed) result.push_back(k.number);
+    return result;
+  }
+
   const Geometry& geometry_;
+  unsigned threads_;
   Progress* progress_;
   TierStatistics statistics_;
   std::uint64_t statistics_pieces_ = 0;
@@ -588,8 +620,8 @@ class Merger {
 }  // namespace
 
 Boundary merge_pieces(const Geometry& geometry, const std::vector<PieceBuffer>& buffers,
-                      Progress* progress) {
-  return Merger(geometry, buffers, progress).merge();
+                      unsigned threads, Progress* progress) {
+  return Merger(geometry, buffers, threads, progress).merge();
 }
 
 }  // namespace exactcsg

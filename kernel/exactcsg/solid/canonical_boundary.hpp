@@ -25,6 +25,6 @@ namespace exactcsg {
 // but for their rims. THROWS Error(InternalError) where they are not. The statistics of the result
 // hold what merging itself counted.
 Boundary merge_pieces(const Geometry& geometry, const std::vector<PieceBuffer>& buffers,
-                      Progress* progress);
+                      unsigned threads, Progress* progress);
 
 }  // namespace exactcsg

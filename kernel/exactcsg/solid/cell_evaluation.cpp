@@ -16,8 +16,9 @@ void PieceBuffer::add(OrientedPlaneRef outward, signed char corner_sense,
   corners.insert(corners.end(), polygon.begin(), polygon.end());
 }
 
-CellEvaluator::CellEvaluator(const Scene& scene)
+CellEvaluator::CellEvaluator(const Scene& scene, Progress* progress)
     : scene_(scene),
+      progress_(progress),
       front_(scene.primitives.size(), Membership::Unknown),
       behind_(scene.primitives.size(), Membership::Unknown) {}
 
@@ -68,6 +69,7 @@ void CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree
   statistics_ = &statistics;
   build_local_forms(facets);
   for (const CellFacet& facet : facets) {
+    if (progress_ != nullptr) progress_->check();
     facet_ = &facet;
     order_primitives_for(facet, facets);
     const bool outward_front = facet.polygon.plane.sense > 0;

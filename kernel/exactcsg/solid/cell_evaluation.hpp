@@ -15,6 +15,7 @@
 #include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/solid/local_form.hpp"
 #include "exactcsg/solid/scene.hpp"
+#include "exactcsg/support/progress.hpp"
 
 namespace exactcsg {
 
@@ -40,7 +41,8 @@ struct CellFacet {
 
 class CellEvaluator {
  public:
-  explicit CellEvaluator(const Scene& scene);
+  // Asks the progress, if there is one, for cancellation once a facet.
+  CellEvaluator(const Scene& scene, Progress* progress);
 
   // REQUIRES every primitive of the tree has facets in the cell, and every facet's primitive occurs
   // in the tree.
@@ -66,6 +68,7 @@ class CellEvaluator {
   csg::Membership truth(const std::vector<csg::Membership>& status);
 
   const Scene& scene_;
+  Progress* progress_;
   // Status of every primitive of the scene on either side of the facet at hand; Unknown between
   // uses. Front: along the stored normal of the facet's plane.
   std::vector<csg::Membership> front_;

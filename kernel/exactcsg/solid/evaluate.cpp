@@ -36,7 +36,8 @@ class Evaluation {
       : scene_(scene),
         decomposition_(scene, options.facets_per_cell, options.progress),
         progress_(options.progress),
-        evaluators_([&scene] { return CellEvaluator(scene); }) {}
+        evaluators_(
+            [&scene, progress = options.progress] { return CellEvaluator(scene, progress); }) {}
 
   EvaluationTask root() const { return prepared(decomposition_.root()); }
 
@@ -165,7 +166,8 @@ Boundary evaluate(const Solid& solid, const EvaluateOptions& options) {
   const CellResult result = run(scene, options);
   require_bounded(solid, scene, result.buffers);
   if (options.progress != nullptr) options.progress->begin("merge", 0);
-  Boundary boundary = merge_pieces(scene.geometry, result.buffers, options.progress);
+  Boundary boundary =
+      merge_pieces(scene.geometry, result.buffers, options.threads, options.progress);
   boundary.statistics.tiers += result.tiers;
   boundary.statistics.primitives = scene.primitives.size();
   boundary.statistics.facets = scene.facets.size();

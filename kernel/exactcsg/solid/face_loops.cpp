@@ -7,6 +7,7 @@
 #include <span>
 #include <tuple>
 
+#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -116,26 +117,33 @@ class LoopLinker {
 
 }  // namespace
 
-void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, Boundary& boundary) {
+void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, unsigned threads,
+                Boundary& boundary) {
   std::sort(edges.begin(), edges.end(), [](const FaceEdge& a, const FaceEdge& b) {
     return std::tie(a.plane, a.face) < std::tie(b.plane, b.face);
   });
-  std::vector<Plane> planes;
+  std::vector<OrientedPlaneRef> oriented;
+  for (const FaceEdge& edge : edges) {
+    if (oriented.empty() || oriented.back() != edge.plane) oriented.push_back(edge.plane);
+  }
+  std::vector<Plane> planes(oriented.size());
+  in_parallel(threads, oriented.size(), [&](std::size_t i) {
+    planes[i] = geometry.exact_plane_value(oriented[i].plane);
+    if (oriented[i].sense < 0) planes[i] = opposite(planes[i]);
+  });
   std::vector<BoundaryFace> faces;
+  std::uint32_t plane = 0;
   for (std::size_t begin = 0; begin < edges.size();) {
     std::size_t end = begin;
     while (end < edges.size() && edges[end].plane == edges[begin].plane &&
            edges[end].face == edges[begin].face) {
       ++end;
     }
-    if (begin == 0 || edges[begin].plane != edges[begin - 1].plane) {
-      const Plane stored = geometry.exact_plane_value(edges[begin].plane.plane);
-      planes.push_back(edges[begin].plane.sense > 0 ? stored : opposite(stored));
-    }
+    if (oriented[plane] != edges[begin].plane) ++plane;
     BoundaryFace face;
-    face.plane = static_cast<std::uint32_t>(planes.size() - 1);
+    face.plane = plane;
     face.loops =
-        LoopLinker(planes.back(), boundary.vertices, std::span(edges).subspan(begin, end - begin))
+        LoopLinker(planes[plane], boundary.vertices, std::span(edges).subspan(begin, end - begin))
             .link();
     faces.push_back(std::move(face));
     begin = end;

@@ -23,6 +23,7 @@ struct FaceEdge {
 // kept connected on the left of each passage.
 // REQUIRES boundary.vertices and approximate are set.
 // THROWS Error(InternalError) if edges do not balance at some vertex of a face.
-void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, Boundary& boundary);
+void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, unsigned threads,
+                Boundary& boundary);
 
 }  // namespace exactcsg
