@@ -13,12 +13,30 @@ namespace exactcsg::io {
 
 namespace {
 
+// Which of two diagonals is taken is a matter of taste, and on a polygon inscribed in a circle an
+// exact answer is expensive: a diagonal is flipped only if interval arithmetic is certain that it
+// gains. Every flip then is one that the exact test makes too, so the flips come to an end.
+struct NearlyInCircle {
+  CGAL::Oriented_side operator()(const ExactPoint2& p, const ExactPoint2& q, const ExactPoint2& r,
+                                 const ExactPoint2& s) const {
+    const CGAL::Protect_FPU_rounding<true> rounding;
+    const auto side = CGAL::side_of_oriented_circle(CGAL::approx(p), CGAL::approx(q),
+                                                    CGAL::approx(r), CGAL::approx(s));
+    return side.is_certain() ? side.make_certain() : CGAL::ON_ORIENTED_BOUNDARY;
+  }
+};
+struct Traits : ExactKernel {
+  using Side_of_oriented_circle_2 = NearlyInCircle;
+  Side_of_oriented_circle_2 side_of_oriented_circle_2_object() const { return {}; }
+};
+
 enum class Place : unsigned char { Unknown, Outside, Inside };
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, ExactKernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<
-    Place, ExactKernel, CGAL::Constrained_triangulation_face_base_2<ExactKernel>>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Traits>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<Place, Traits,
+                                              CGAL::Constrained_triangulation_face_base_2<Traits>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<ExactKernel, Structure>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Traits, Structure>;
 
 }  // namespace
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The triangulation of a polygon with holes by a constrained Delaunay triangulation with exact
-// predicates: no vertex is added. [Exact]
+// The triangulation of a polygon with holes by a constrained, nearly Delaunay triangulation: no
+// vertex is added, and every orientation is decided exactly. [Exact]
 //
 // LAW triangulation.1  every edge of the loops is an edge of the triangles, and the triangles,
 // counter-clockwise, cover exactly the points with an odd number of loops round them.
