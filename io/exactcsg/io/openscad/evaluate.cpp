@@ -552,15 +552,12 @@ class ExactBuilder {
   }
 
   void count_vertices(std::size_t count) {
-    vertices_ += count;
-    if (vertices_ > model_vertex_limit) {
+    if (count > model_vertex_limit - vertices_) {
       throw Error(
           ErrorId::TooLarge,
           {"more than " + std::to_string(model_vertex_limit) + " vertices of primitives", ""});
     }
   }
-
-  static constexpr std::size_t model_vertex_limit = 10'000'000;
 
   const SyntaxTree& tree_;
   Warnings& warnings_;

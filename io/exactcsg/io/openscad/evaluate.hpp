@@ -13,4 +13,8 @@ namespace exactcsg::io::openscad {
 // THROWS Error with the position of the node or argument.
 Model evaluate_as_written(const SyntaxTree& tree, const ReadOptions& options);
 
+// As `Rounding::OpenScadGrid` says; grid_rounding.hpp has the rules.
+// THROWS Error(UnsupportedNode), besides, for what OpenSCAD's rounding leaves uncertain.
+Model evaluate_on_grid(const SyntaxTree& tree, const ReadOptions& options);
+
 }  // namespace exactcsg::io::openscad

@@ -26,8 +26,10 @@
 
 namespace exactcsg::io::openscad {
 
-// No single shape may have more vertices than this (docs/limits.md).
+// No single shape may have more vertices than this.
 constexpr std::size_t shape_vertex_limit = 2'000'000;
+// Nor the primitives of a model together more than this.
+constexpr std::size_t model_vertex_limit = 10'000'000;
 
 // The special variables of a node; NaN for one that was given as inf, nan or undef.
 struct Fineness {

@@ -1,0 +1,721 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The builder of Rounding::OpenScadGrid. Orders of operations in double are those of OpenSCAD
+// 2021.01 (src/primitives.cc, src/GeometryEvaluator.cc) and are part of the result.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "exactcsg/io/openscad/degree_trigonometry.hpp"
+#include "exactcsg/io/openscad/evaluate.hpp"
+#include "exactcsg/io/openscad/grid_rounding.hpp"
+#include "exactcsg/io/openscad/node_walk.hpp"
+#include "exactcsg/io/openscad/shapes.hpp"
+
+namespace exactcsg::io::openscad {
+
+namespace {
+
+using csg::BooleanOperator;
+using DoublePoint2 = std::array<double, 2>;
+
+struct Outline {
+  std::vector<DoublePoint2> vertices;
+  bool positive = true;  // not a hole
+};
+struct DoubleFigure {
+  std::vector<Outline> outlines;
+};
+
+struct GridOutcome {
+  std::uint32_t node = 0;
+  int dimension = 0;
+  bool exact = false;  // `solid` counts, not `soup`
+  Soup soup;
+  Solid solid;
+  DoubleFigure planar;
+
+  bool is_empty() const {
+    if (dimension == 2) return planar.outlines.empty();
+    return dimension == 0 || (exact ? solid.is_empty() : soup.is_empty());
+  }
+};
+
+// The clipping library's integers.
+constexpr double clipping_scale = 65536.0;
+
+Rational clipped(double value) {
+  return Rational(Integer(std::trunc(value * clipping_scale))) / 65536;
+}
+
+PlanarTree clipped(const DoubleFigure& figure) {
+  PlanarFigure result;
+  for (const Outline& outline : figure.outlines) {
+    auto& path = result.paths.emplace_back();
+    for (const auto& [x, y] : outline.vertices) path.push_back({clipped(x), clipped(y)});
+  }
+  return result.paths.empty() ? PlanarTree::empty() : PlanarTree::primitive(std::move(result));
+}
+
+double distance_to_line_squared(const DoublePoint2& p, const DoublePoint2& a,
+                                const DoublePoint2& b) {
+  const double nx = a[1] - b[1];
+  const double ny = b[0] - a[0];
+  const double c = nx * (p[0] - a[0]) + ny * (p[1] - a[1]);
+  return c * c / (nx * nx + ny * ny);
+}
+
+// Whether the library's clean-up could drop the middle one of three vertices.
+bool would_be_cleaned(const DoublePoint2& a, const DoublePoint2& b, const DoublePoint2& c) {
+  constexpr double least = 0.001 * 0.001;
+  const auto squared = [](const DoublePoint2& p, const DoublePoint2& q) {
+    return (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]);
+  };
+  if (squared(a, b) < 2 * least || squared(a, c) < 2 * least) return true;
+  const std::size_t axis = std::fabs(a[0] - b[0]) > std::fabs(a[1] - b[1]) ? 0 : 1;
+  if ((a[axis] > b[axis]) == (a[axis] < c[axis])) return distance_to_line_squared(a, b, c) < least;
+  if ((b[axis] > a[axis]) == (b[axis] < c[axis])) return distance_to_line_squared(b, a, c) < least;
+  return distance_to_line_squared(c, a, b) < least;
+}
+
+// What comes out of the clipping library.
+DoubleFigure through_clipping(const PlanarTree& tree) {
+  DoubleFigure result;
+  if (tree.is_empty()) return result;
+  for (const auto& path : resolve(tree).paths) {
+    Outline& outline = result.outlines.emplace_back();
+    double area = 0;
+    for (const Point2& p : path) {
+      if (Rational(p.x * 65536).get_den() != 1 || Rational(p.y * 65536).get_den() != 1) {
+        throw Error(ErrorId::UnsupportedNode,
+                    {"a planar Boolean whose corners are off the clipping grid", ""});
+      }
+      outline.vertices.push_back({nearest_double(p.x), nearest_double(p.y)});
+    }
+    const auto& v = outline.vertices;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const auto& q = v[(i + 1) % v.size()];
+      area += v[i][0] * q[1] - v[i][1] * q[0];
+      if (would_be_cleaned(v[i], q, v[(i + 2) % v.size()])) {
+        throw Error(ErrorId::UnsupportedNode,
+                    {"an outline with a vertex that OpenSCAD's clean-up may drop", ""});
+      }
+    }
+    outline.positive = area > 0;
+  }
+  return result;
+}
+
+DoubleFigure clip(BooleanOperator operation, std::span<const GridOutcome> operands) {
+  std::vector<PlanarTree> trees;
+  for (std::size_t i = 0; i < operands.size(); ++i) {
+    const bool empty = operands[i].dimension != 2 || operands[i].is_empty();
+    if (!empty) {
+      trees.push_back(clipped(operands[i].planar));
+    } else if (operation == BooleanOperator::Intersection ||
+               (operation == BooleanOperator::Difference && i == 0)) {
+      return {};
+    }
+  }
+  if (trees.empty()) return {};
+  return through_clipping(PlanarTree::compose(operation, std::move(trees)));
+}
+
+bool is_convex(const DoubleFigure& figure) {
+  if (figure.outlines.size() > 1) return false;
+  if (figure.outlines.empty()) return true;
+  const auto& v = figure.outlines[0].vertices;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const auto& p = v[i];
+    const auto& q = v[(i + 1) % v.size()];
+    const auto& r = v[(i + 2) % v.size()];
+    if ((q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]) < 0) return false;
+  }
+  return true;
+}
+
+// A polygon whose vertices OpenSCAD puts in from the last to the first.
+std::vector<DoublePoint> reversed(std::vector<DoublePoint> polygon) {
+  std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+// Turned and scaled, as a level of an extrusion is.
+struct LevelMap {
+  double xx, xy, yx, yy;
+  LevelMap(const DoublePoint2& scale, double degrees) {
+    const double s = sine_of_degrees(degrees);
+    const double c = cosine_of_degrees(degrees);
+    xx = scale[0] * c;
+    xy = scale[0] * -s;
+    yx = scale[1] * s;
+    yy = scale[1] * c;
+  }
+  DoublePoint2 operator()(const DoublePoint2& p) const {
+    return {xx * p[0] + xy * p[1], yx * p[0] + yy * p[1]};
+  }
+};
+
+// -1 or 1 if one length is shorter by more than 10 millionths, else 0.
+int compare_lengths(const DoublePoint2& u, const DoublePoint2& v) {
+  const double a = std::sqrt(u[0] * u[0] + u[1] * u[1]);
+  const double b = std::sqrt(v[0] * v[0] + v[1] * v[1]);
+  if (2 * std::fabs(a - b) * 1e5 <= a + b) return 0;
+  return a < b ? -1 : 1;
+}
+
+class GridBuilder {
+ public:
+  struct Context {};
+  using Outcome = GridOutcome;
+
+  GridBuilder(const SyntaxTree& tree, Warnings& warnings) : tree_(tree), warnings_(warnings) {}
+
+  static Context root() { return {}; }
+  static Context below(NodeKind, std::uint32_t, const Context&) { return {}; }
+
+  Model finish(const std::vector<Outcome>& statements) {
+    Model model;
+    const Outcome whole = unite(statements);
+    if (whole.dimension == 2) {
+      throw Error(ErrorId::NotThreeDimensional,
+                  {"a planar model", "a solid", position(whole.node)});
+    }
+    if (!whole.is_empty()) model.solid = exact(whole);
+    if (model.solid.is_empty()) {
+      warnings_.add("the model is empty (OpenSCAD refuses to export it)", position(0));
+    }
+    model.primitives = primitives_;
+    // Cut by less than a cell, moved to a neighbour's cell by less than another.
+    model.rounding_bound = Rational(1, Integer(1) << 19U);
+    return model;
+  }
+
+  Outcome leaf(NodeKind kind, std::uint32_t node, const Context&) {
+    Outcome result;
+    using enum NodeKind;
+    if (kind == Square || kind == Circle || kind == Polygon) {
+      result.dimension = 2;
+      result.planar = planar_leaf(kind, node);
+      return result;
+    }
+    ++primitives_;
+    result.dimension = 3;
+    result.soup = kind == Cube       ? cube(node)
+                  : kind == Sphere   ? sphere(node)
+                  : kind == Cylinder ? cylinder(node)
+                                     : polyhedron(node);
+    return result;
+  }
+
+  Outcome inner(NodeKind kind, std::uint32_t node, const Context&,
+                std::span<const Outcome> operands) {
+    switch (kind) {
+      case NodeKind::Difference:
+        return boolean(BooleanOperator::Difference, operands);
+      case NodeKind::Intersection:
+        return boolean(BooleanOperator::Intersection, operands);
+      case NodeKind::Hull:
+        return hull_of(operands);
+      case NodeKind::Multmatrix:
+        return moved(node, operands);
+      case NodeKind::LinearExtrude:
+        return linear(node, operands);
+      case NodeKind::RotateExtrude:
+        return rotate(node, operands);
+      default:
+        return unite(operands);
+    }
+  }
+
+ private:
+  SourcePosition position(std::uint32_t node) const {
+    return tree_.position(tree_.nodes[node].offset);
+  }
+
+  static Solid exact(const Outcome& outcome) {
+    if (outcome.dimension != 3 || outcome.is_empty()) return Solid::empty();
+    return outcome.exact ? outcome.solid : cut_to_grid(outcome.soup);
+  }
+
+  Outcome unite(std::span<const Outcome> operands) {
+    return boolean(BooleanOperator::Union, operands);
+  }
+
+  static const Outcome* first_of_any_dimension(std::span<const Outcome> operands) {
+    const auto first = std::find_if(operands.begin(), operands.end(),
+                                    [](const Outcome& o) { return o.dimension != 0; });
+    return first == operands.end() ? nullptr : &*first;
+  }
+
+  Outcome boolean(BooleanOperator operation, std::span<const Outcome> operands) {
+    Outcome result;
+    const Outcome* const first = first_of_any_dimension(operands);
+    if (first == nullptr) return result;
+    if (operands.size() == 1) return *first;
+    result.node = first->node;
+    result.dimension = first->dimension;
+    if (result.dimension == 2) {
+      result.planar = clip(operation, operands);
+      return result;
+    }
+    const auto is_operand = [](const Outcome& o) { return o.dimension == 3 && !o.is_empty(); };
+    if (operation == BooleanOperator::Union) {
+      const auto count = std::count_if(operands.begin(), operands.end(), is_operand);
+      if (count == 0) return result;
+      if (count == 1) return *std::find_if(operands.begin(), operands.end(), is_operand);
+    }
+    result.exact = true;
+    std::vector<Solid> solids;
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+      Solid solid = exact(operands[i]);
+      if (!solid.is_empty()) {
+        solids.push_back(std::move(solid));
+      } else if (operation == BooleanOperator::Intersection ||
+                 (operation == BooleanOperator::Difference && i == 0)) {
+        return result;
+      }
+    }
+    if (!solids.empty()) result.solid = Solid::compose(operation, std::move(solids));
+    return result;
+  }
+
+  Outcome moved(std::uint32_t node, std::span<const Outcome> operands) {
+    const auto map = read_multmatrix(tree_, node, warnings_);
+    if (!map) return {};
+    Outcome result = unite(operands);
+    DoubleMap m{};
+    AffineMap exact_map;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        m[i][k] = nearest_double(map->m[i][k]);
+        exact_map.m[i][k] = rational_of(m[i][k]);
+      }
+    }
+    if (result.is_empty()) return result;
+    if (result.dimension == 2) {
+      move_planar(m, result.planar);
+    } else if (!result.exact) {
+      result.soup = transformed(m, std::move(result.soup));
+    } else if (openscad::determinant(m) == 0) {
+      result.solid = Solid::empty();
+    } else {
+      result.solid = apply(exact_map, result.solid);
+    }
+    return result;
+  }
+
+  static void move_planar(const DoubleMap& m, DoubleFigure& figure) {
+    const double area = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    if (area == 0) {
+      figure.outlines.clear();
+      return;
+    }
+    for (Outline& outline : figure.outlines) {
+      for (auto& [x, y] : outline.vertices) {
+        const double u = m[0][0] * x + (m[0][1] * y + m[0][3]);
+        const double v = m[1][0] * x + (m[1][1] * y + m[1][3]);
+        x = u;
+        y = v;
+      }
+    }
+    if (area < 0) figure = through_clipping(clipped(figure));
+  }
+
+  Outcome hull_of(std::span<const Outcome> operands) {
+    Outcome result;
+    const Outcome* const first = first_of_any_dimension(operands);
+    if (first == nullptr) return result;
+    result.dimension = first->dimension;
+    result.dimension == 2 ? planar_hull(operands, result) : solid_hull(operands, result);
+    return result;
+  }
+
+  static void planar_hull(std::span<const Outcome> operands, Outcome& result) {
+    std::vector<PlanarTree> trees;
+    for (const Outcome& operand : operands) {
+      for (const Outline& outline : operand.planar.outlines) {
+        PlanarFigure figure;
+        auto& path = figure.paths.emplace_back();
+        for (const auto& [x, y] : outline.vertices)
+          path.push_back({rational_of(x), rational_of(y)});
+        trees.push_back(PlanarTree::primitive(std::move(figure)));
+      }
+    }
+    if (trees.empty()) return;
+    const auto corners = hull(PlanarTree::compose(BooleanOperator::Union, std::move(trees)));
+    if (corners.size() < 3) return;
+    Outline& outline = result.planar.outlines.emplace_back();
+    for (const Point2& p : corners) {
+      outline.vertices.push_back({nearest_double(p.x), nearest_double(p.y)});
+    }
+  }
+
+  static void solid_hull(std::span<const Outcome> operands, Outcome& result) {
+    std::vector<Point3> points;
+    const auto add = [&](const std::vector<DoublePoint>& polygon) {
+      for (const auto& [x, y, z] : polygon) {
+        points.push_back({rational_of(x), rational_of(y), rational_of(z)});
+      }
+    };
+    for (const Outcome& operand : operands) {
+      if (operand.dimension != 3 || operand.is_empty()) continue;
+      if (operand.exact) {
+        // OpenSCAD takes the doubles of the exact corners.
+        for (const auto& p : corners_of(hull(operand.solid))) {
+          points.push_back({rational_of(p[0]), rational_of(p[1]), rational_of(p[2])});
+        }
+        continue;
+      }
+      for (const Cap& cap : operand.soup.caps) {
+        for (const auto& loop : cap.loops) add(loop);
+      }
+      for (const auto& polygon : operand.soup.polygons) add(polygon);
+    }
+    result.soup.convexity = Soup::Convexity::Known;
+    std::vector<DoublePoint> corners = corners_of(hull(std::span<const Point3>(points)));
+    if (!corners.empty()) result.soup.polygons.push_back(std::move(corners));
+  }
+
+  static std::vector<DoublePoint> corners_of(const Solid& hull) {
+    std::vector<DoublePoint> corners;
+    if (!hull.is_primitive()) return corners;
+    const auto& shape = hull.primitive().shape;
+    for (const Point3& p : std::get<ConvexPolytope>(shape).polyhedron->vertices) {
+      corners.push_back({nearest_double(p.x), nearest_double(p.y), nearest_double(p.z)});
+    }
+    return corners;
+  }
+
+  Soup cube(std::uint32_t node) {
+    const BoxShape shape = read_cube(tree_, node, warnings_);
+    Soup soup;
+    soup.convexity = Soup::Convexity::Known;
+    std::array<double, 3> lower{};
+    std::array<double, 3> upper{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (shape.size[i] == 0) return soup;
+      const double size = nearest_double(shape.size[i]);
+      lower[i] = shape.center ? -size / 2 : 0;
+      upper[i] = shape.center ? size / 2 : size;
+    }
+    for (const double z : {upper[2], lower[2]}) {
+      soup.polygons.push_back({{lower[0], lower[1], z},
+                               {upper[0], lower[1], z},
+                               {upper[0], upper[1], z},
+                               {lower[0], upper[1], z}});
+    }
+    return soup;
+  }
+
+  static std::vector<DoublePoint> ring(double radius, double z, std::size_t n) {
+    std::vector<DoublePoint> points;
+    for (const auto& [c, s] : circle_directions(n)) points.push_back({radius * c, radius * s, z});
+    return points;
+  }
+
+  Soup sphere(std::uint32_t node) {
+    const SphereShape shape = read_sphere(tree_, node, warnings_);
+    Soup soup;
+    soup.convexity = Soup::Convexity::Known;
+    const double radius = nearest_double(shape.radius);
+    if (radius == 0) return soup;
+    const std::size_t n = fragments(radius, shape.fineness);
+    const std::size_t rings = (n + 1) / 2;
+    count_vertices(n, rings);
+    for (std::size_t i = 0; i < rings; ++i) {
+      const double phi = (180.0 * (static_cast<double>(i) + 0.5)) / static_cast<double>(rings);
+      soup.polygons.push_back(
+          ring(radius * sine_of_degrees(phi), radius * cosine_of_degrees(phi), n));
+    }
+    return soup;
+  }
+
+  Soup cylinder(std::uint32_t node) {
+    const CylinderShape shape = read_cylinder(tree_, node, warnings_);
+    Soup soup;
+    soup.convexity = Soup::Convexity::Known;
+    const double height = nearest_double(shape.height);
+    const double lower = nearest_double(shape.lower_radius);
+    const double upper = nearest_double(shape.upper_radius);
+    if (height == 0 || (lower == 0 && upper == 0)) return soup;
+    const std::size_t n = fragments(std::max(lower, upper), shape.fineness);
+    count_vertices(n, 2);
+    soup.polygons.push_back(ring(lower, shape.center ? -height / 2 : 0, n));
+    soup.polygons.push_back(ring(upper, shape.center ? height / 2 : height, n));
+    return soup;
+  }
+
+  Soup polyhedron(std::uint32_t node) {
+    const FacedPoints shape = read_polyhedron(tree_, node, warnings_);
+    Soup soup;
+    for (const auto& face : shape.faces) {
+      auto& polygon = soup.polygons.emplace_back();
+      for (const std::uint32_t index : face) {
+        const Point3& p = shape.points[index];
+        polygon.push_back({nearest_double(p.x), nearest_double(p.y), nearest_double(p.z)});
+      }
+    }
+    return soup;
+  }
+
+  DoubleFigure planar_leaf(NodeKind kind, std::uint32_t node) {
+    DoubleFigure figure;
+    if (kind == NodeKind::Polygon) {
+      PlanarFigure given = read_polygon(tree_, node, warnings_);
+      for (const auto& path : given.paths) {
+        Outline& outline = figure.outlines.emplace_back();
+        for (const Point2& p : path) {
+          outline.vertices.push_back({nearest_double(p.x), nearest_double(p.y)});
+        }
+      }
+      return through_clipping(clipped(figure));
+    }
+    Outline outline;
+    if (kind == NodeKind::Square) {
+      const SquareShape shape = read_square(tree_, node, warnings_);
+      const double x = nearest_double(shape.size[0]);
+      const double y = nearest_double(shape.size[1]);
+      if (x == 0 || y == 0) return figure;
+      const double x0 = shape.center ? 0 - x / 2 : 0;
+      const double y0 = shape.center ? 0 - y / 2 : 0;
+      const double x1 = shape.center ? x - x / 2 : x;
+      const double y1 = shape.center ? y - y / 2 : y;
+      outline.vertices = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+    } else {
+      const CircleShape shape = read_circle(tree_, node, warnings_);
+      const double radius = nearest_double(shape.radius);
+      if (radius == 0) return figure;
+      for (const auto& [c, s] : circle_directions(fragments(radius, shape.fineness))) {
+        outline.vertices.push_back({radius * c, radius * s});
+      }
+    }
+    figure.outlines.push_back(std::move(outline));
+    return figure;
+  }
+
+  // The planar children of an extrusion, united. nullopt: there are none at all.
+  static std::optional<DoubleFigure> planar_children(std::span<const Outcome> operands) {
+    if (first_of_any_dimension(operands) == nullptr) return std::nullopt;
+    if (operands.size() == 1) return operands[0].planar;
+    return clip(BooleanOperator::Union, operands);
+  }
+
+  Outcome linear(std::uint32_t node, std::span<const Outcome> operands) {
+    Outcome result;
+    const LinearExtrudeShape shape = read_linear_extrude(tree_, node, warnings_);
+    const auto figure = planar_children(operands);
+    if (!figure) return result;
+    ++primitives_;
+    result.dimension = 3;
+    if (figure->outlines.empty() || shape.height == 0) return result;
+    const double height = nearest_double(shape.height);
+    const double twist = nearest_double(shape.twist);
+    const DoublePoint2 scale{nearest_double(shape.scale[0]), nearest_double(shape.scale[1])};
+    const double h1 = shape.center ? -height / 2.0 : 0;
+    const double h2 = shape.center ? height / 2.0 : height;
+    if (is_convex(*figure) && twist == 0 && scale[0] == scale[1]) {
+      result.soup.convexity = Soup::Convexity::Known;
+    }
+    add_cap(result.soup, *figure, LevelMap({1, 1}, 0), h1, false);
+    if (scale[0] > 0 && scale[1] > 0) {
+      add_cap(result.soup, *figure, LevelMap(scale, -twist), h2, true);
+    }
+    const std::size_t slices = shape.slices ? *shape.slices : slice_count(shape, *figure);
+    std::size_t vertices = 0;
+    for (const Outline& outline : figure->outlines) vertices += outline.vertices.size();
+    count_vertices(vertices, slices + 1);
+    const auto count = static_cast<double>(slices);
+    for (std::size_t j = 0; j < slices; ++j) {
+      const auto a = static_cast<double>(j);
+      const auto b = static_cast<double>(j + 1);
+      const auto scaled = [&](double step) {
+        return DoublePoint2{1 - (1 - scale[0]) * step / count, 1 - (1 - scale[1]) * step / count};
+      };
+      add_slice(result.soup, *figure, twist * a / count, twist * b / count,
+                h1 + (h2 - h1) * a / count, h1 + (h2 - h1) * b / count, scaled(a), scaled(b));
+    }
+    return result;
+  }
+
+  static void add_cap(Soup& soup, const DoubleFigure& figure, const LevelMap& map, double z,
+                      bool upward) {
+    Cap& cap = soup.caps.emplace_back();
+    for (const Outline& outline : figure.outlines) {
+      auto& loop = cap.loops.emplace_back();
+      for (const DoublePoint2& v : outline.vertices) {
+        const auto [x, y] = map(v);
+        loop.push_back({x, y, z});
+      }
+      if (!upward) std::reverse(loop.begin(), loop.end());
+    }
+  }
+
+  static void add_slice(Soup& soup, const DoubleFigure& figure, double turn1, double turn2,
+                        double h1, double h2, const DoublePoint2& scale1,
+                        const DoublePoint2& scale2) {
+    const LevelMap lower(scale1, -turn1);
+    const LevelMap upper(scale2, -turn2);
+    const bool any_zero = scale2[0] == 0 || scale2[1] == 0;
+    const bool any_non_zero = scale2[0] != 0 || scale2[1] != 0;
+    const bool back_twist = turn2 <= turn1;
+    for (const Outline& outline : figure.outlines) {
+      const auto& v = outline.vertices;
+      DoublePoint2 p1 = lower(v[0]);
+      DoublePoint2 p2 = upper(v[0]);
+      const bool flip = !outline.positive != back_twist;
+      for (std::size_t i = 1; i <= v.size(); ++i) {
+        const DoublePoint2 c1 = lower(v[i % v.size()]);
+        const DoublePoint2 c2 = upper(v[i % v.size()]);
+        const int order =
+            compare_lengths({p1[0] - c2[0], p1[1] - c2[1]}, {c1[0] - p2[0], c1[1] - p2[1]});
+        const bool split_first = order == -1 || (order == 0 && !flip);
+        const DoublePoint a1{p1[0], p1[1], h1};
+        const DoublePoint a2{p2[0], p2[1], h2};
+        const DoublePoint b1{c1[0], c1[1], h1};
+        const DoublePoint b2{c2[0], c2[1], h2};
+        const bool second = !any_zero || (any_non_zero && p2 != c2);
+        if (split_first != any_zero) {
+          soup.polygons.push_back(reversed({a1, b2, b1}));
+          if (second) soup.polygons.push_back(reversed({b2, a1, a2}));
+        } else {
+          soup.polygons.push_back(reversed({a1, a2, b1}));
+          if (second) soup.polygons.push_back(reversed({a2, b2, b1}));
+        }
+        p1 = c1;
+        p2 = c2;
+      }
+    }
+  }
+
+  static std::size_t slice_count(const LinearExtrudeShape& shape, const DoubleFigure& figure) {
+    const double height = nearest_double(shape.height);
+    const double twist = nearest_double(shape.twist);
+    const double sx = nearest_double(shape.scale[0]);
+    const double sy = nearest_double(shape.scale[1]);
+    double radius_squared = 0;
+    double delta_squared = 0;
+    for (const Outline& outline : figure.outlines) {
+      for (const auto& [x, y] : outline.vertices) {
+        radius_squared = std::max(radius_squared, x * x + y * y);
+        const double dx = x - x * sx;
+        const double dy = y - y * sy;
+        delta_squared = std::max(delta_squared, dx * dx + dy * dy);
+      }
+    }
+    if (twist == 0) {
+      return sx == sy ? 1 : diagonal_slices(delta_squared, height, shape.fineness);
+    }
+    if ((sx == 1.0 && sy == 1.0) || sx != sy) {
+      return helix_slices(radius_squared, height, twist, shape.fineness);
+    }
+    return conical_helix_slices(radius_squared, height, twist, sx, shape.fineness);
+  }
+
+  Outcome rotate(std::uint32_t node, std::span<const Outcome> operands) {
+    Outcome result;
+    const RotateExtrudeShape shape = read_rotate_extrude(tree_, node, warnings_);
+    const auto figure = planar_children(operands);
+    if (!figure || shape.angle == 0) return result;
+    ++primitives_;
+    result.dimension = 3;
+    if (figure->outlines.empty()) return result;
+    double least = 0;
+    double largest = 0;
+    std::size_t vertices = 0;
+    for (const Outline& outline : figure->outlines) {
+      vertices += outline.vertices.size();
+      for (const auto& [x, y] : outline.vertices) {
+        least = std::min(least, x);
+        largest = std::max(largest, x);
+      }
+    }
+    if (least < 0 && largest > 0) {
+      throw Error(ErrorId::BadArgument, {"an outline on both sides of the axis of rotation",
+                                         "x >= 0 everywhere, or x <= 0"});
+    }
+    const double angle = nearest_double(shape.angle);
+    const auto count = static_cast<std::size_t>(std::max(
+        static_cast<double>(fragments(largest - least, shape.fineness)) * std::abs(angle) / 360,
+        1.0));
+    count_vertices(vertices, count + 1);
+    const bool flip =
+        (least >= 0 && angle > 0 && angle != 360) || (least < 0 && (angle < 0 || angle == 360));
+    if (angle != 360) add_rotation_caps(result.soup, *figure, angle, flip);
+    for (const Outline& outline : figure->outlines) {
+      add_rings(result.soup, outline, angle, count, flip);
+    }
+    return result;
+  }
+
+  static void add_rotation_caps(Soup& soup, const DoubleFigure& figure, double angle, bool flip) {
+    const double c = cosine_of_degrees(angle);
+    const double s = sine_of_degrees(angle);
+    Cap start;
+    Cap end;
+    for (const Outline& outline : figure.outlines) {
+      auto& first = start.loops.emplace_back();
+      auto& last = end.loops.emplace_back();
+      for (const auto& [x, y] : outline.vertices) {
+        first.push_back({x, 0, y});
+        last.push_back({c * x, s * x, y});
+      }
+      std::reverse(flip ? last.begin() : first.begin(), flip ? last.end() : first.end());
+    }
+    soup.caps.push_back(std::move(start));
+    soup.caps.push_back(std::move(end));
+  }
+
+  static void add_rings(Soup& soup, const Outline& outline, double angle, std::size_t count,
+                        bool flip) {
+    const std::size_t m = outline.vertices.size();
+    const auto ring_at = [&](double a) {
+      std::vector<DoublePoint> ring;
+      for (std::size_t i = 0; i < m; ++i) {
+        const auto& [x, y] = outline.vertices[flip ? m - 1 - i : i];
+        ring.push_back({x * sine_of_degrees(a), x * cosine_of_degrees(a), y});
+      }
+      return ring;
+    };
+    const auto steps = static_cast<double>(count);
+    std::vector<DoublePoint> ring = ring_at(angle == 360 ? -90 : 90);
+    for (std::size_t j = 0; j < count; ++j) {
+      const double a = angle == 360 ? -90 + static_cast<double>((j + 1) % count) * 360.0 / steps
+                                    : 90 - static_cast<double>(j + 1) * angle / steps;
+      std::vector<DoublePoint> next = ring_at(a);
+      for (std::size_t i = 0; i < m; ++i) {
+        const std::size_t k = (i + 1) % m;
+        soup.polygons.push_back(reversed({ring[i], next[k], ring[k]}));
+        soup.polygons.push_back(reversed({ring[i], next[i], next[k]}));
+      }
+      ring = std::move(next);
+    }
+  }
+
+  void count_vertices(std::size_t outline, std::size_t levels) {
+    if (outline != 0 && levels > (model_vertex_limit - vertices_) / outline) {
+      throw Error(
+          ErrorId::TooLarge,
+          {"more than " + std::to_string(model_vertex_limit) + " vertices of primitives", ""});
+    }
+    vertices_ += outline * levels;
+  }
+
+  const SyntaxTree& tree_;
+  Warnings& warnings_;
+  std::size_t primitives_ = 0;
+  std::size_t vertices_ = 0;
+};
+
+}  // namespace
+
+Model evaluate_on_grid(const SyntaxTree& tree, const ReadOptions& options) {
+  Warnings warnings;
+  GridBuilder builder(tree, warnings);
+  NodeWalk<GridBuilder> walk(tree, builder, warnings, options.progress);
+  Model model = builder.finish(walk.run());
+  model.warnings = std::move(warnings).take();
+  return model;
+}
+
+}  // namespace exactcsg::io::openscad

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "exactcsg/io/model.hpp"
+#include "exactcsg/solid/evaluate.hpp"
+#include "exactcsg/solid/measures.hpp"
+
+namespace exactcsg::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OpenscadFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(EXACTCSG_BINARY_DIR) / "test_files" / info->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  fs::path write(const std::string& name, std::string_view text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  static ErrorId refusal(const fs::path& file) {
+    try {
+      read_model(file);
+    } catch (const Error& error) {
+      EXPECT_TRUE(error.details().position) << error.what();
+      return error.id();
+    }
+    ADD_FAILURE() << "accepted: " << file;
+    return ErrorId::InternalError;
+  }
+  fs::path folder_;
+};
+
+TEST_F(OpenscadFiles, AreReadByTheirEnding) {
+  const Model model = read_model(write("part.CSG", "cube(2);\n"));
+  EXPECT_EQ(*exact_volume(evaluate(model.solid)), 8);
+  EXPECT_EQ(model.name, (folder_ / "part.CSG").string());
+}
+
+TEST_F(OpenscadFiles, AreRefusedByName) {
+  EXPECT_EQ(refusal(folder_), ErrorId::FileNotReadable);
+  EXPECT_EQ(refusal(folder_ / "missing.csg"), ErrorId::FileNotReadable);
+  fs::create_directory(folder_ / "folder.csg");
+  EXPECT_EQ(refusal(folder_ / "folder.csg"), ErrorId::FileNotReadable);
+  EXPECT_EQ(refusal(write("empty.csg", "")), ErrorId::EmptyFile);
+  EXPECT_EQ(refusal(write("empty.scad", "")), ErrorId::EmptyFile);
+  EXPECT_EQ(refusal(write("zip.csg", "PK\x03\x04 and so on")), ErrorId::NotText);
+  EXPECT_EQ(refusal(write("part.step", "ISO-10303-21;")), ErrorId::UnknownFormat);
+  EXPECT_EQ(refusal(write("part", "cube();")), ErrorId::UnknownFormat);
+}
+
+TEST_F(OpenscadFiles, ThatMayNotBeReadAreRefused) {
+  const fs::path file = write("secret.csg", "cube();");
+  fs::permissions(file, fs::perms::none);
+  if (std::ifstream(file)) GTEST_SKIP() << "this user may read everything";
+  EXPECT_EQ(refusal(file), ErrorId::FileNotReadable);
+}
+
+bool has_openscad() { return std::system("openscad --version >/dev/null 2>&1") == 0; }  // NOLINT
+
+TEST_F(OpenscadFiles, SourcesGoThroughOpenscad) {
+  if (!has_openscad()) GTEST_SKIP() << "openscad is not installed";
+  const Model model = read_model(write(
+      "part.scad", "echo(\"hello\"); translate([1, 2, 3]) cube([1, 2, h]); // h is not known\n"));
+  EXPECT_EQ(*exact_volume(evaluate(model.solid)), 2);  // an unknown size is 1
+  EXPECT_THAT(model.front_end_messages, testing::HasSubstr("hello"));
+  EXPECT_THAT(model.warnings, testing::Contains(testing::Field(
+                                  &Warning::text, testing::HasSubstr("unknown variable"))));
+}
+
+TEST_F(OpenscadFiles, SourcesThatMakeNothingAreEmpty) {
+  if (!has_openscad()) GTEST_SKIP() << "openscad is not installed";
+  const Model model = read_model(write("part.scad", "if (false) cube();\n"));
+  EXPECT_TRUE(model.solid.is_empty());
+  EXPECT_FALSE(model.warnings.empty());
+}
+
+// OpenSCAD exits with 0 after a failed assertion.
+TEST_F(OpenscadFiles, ErrorsInSourcesAreShown) {
+  if (!has_openscad()) GTEST_SKIP() << "openscad is not installed";
+  EXPECT_EQ(refusal(write("assert.scad", "cube(); assert(1 > 2); sphere();")),
+            ErrorId::OracleFailed);
+  EXPECT_EQ(refusal(write("syntax.scad", "cube(")), ErrorId::OracleFailed);
+  EXPECT_EQ(refusal(write("-o.scad", "cube(")), ErrorId::OracleFailed);
+  EXPECT_EQ(refusal(write("node.scad", "minkowski() { cube(); sphere(); }")),
+            ErrorId::UnsupportedNode);
+}
+
+TEST_F(OpenscadFiles, WithoutOpenscadSourcesAreRefused) {
+  const fs::path file = write("part.scad", "cube();");
+  const char* const before = std::getenv("PATH");
+  const std::string path = before != nullptr ? before : "";
+  setenv("PATH", "/nonexistent", 1);
+  EXPECT_THROW(
+      {
+        try {
+          read_model(file);
+        } catch (const Error& error) {
+          EXPECT_EQ(error.id(), ErrorId::OracleUnavailable);
+          throw;
+        }
+      },
+      Error);
+  setenv("PATH", path.c_str(), 1);
+}
+
+// Every model of the project's own data is read.
+TEST(OpenscadData, IsRead) {
+  std::size_t count = 0;
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(EXACTCSG_SOURCE_DIR) / "data/openscad")) {
+    if (entry.path().extension() != ".csg") continue;
+    ++count;
+    EXPECT_NO_THROW({
+      const Model model = read_model(entry.path());
+      EXPECT_GT(model.primitives, 0U) << entry.path();
+    }) << entry.path();
+  }
+  EXPECT_GE(count, 30U);
+}
+
+}  // namespace
+}  // namespace exactcsg::io
