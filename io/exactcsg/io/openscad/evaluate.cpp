@@ -557,6 +557,7 @@ class ExactBuilder {
           ErrorId::TooLarge,
           {"more than " + std::to_string(model_vertex_limit) + " vertices of primitives", ""});
     }
+    vertices_ += count;
   }
 
   const SyntaxTree& tree_;
