@@ -372,18 +372,16 @@ class ExactBuilder {
       throw Error(ErrorId::BadArgument, {"an outline on both sides of the axis of rotation",
                                          "x >= 0 everywhere, or x <= 0"});
     }
-    const auto directions = ring_directions(shape, largest - least, least < 0);
+    const auto directions = ring_directions(shape, largest - least);
     count_vertices(vertices * directions.size());
     add_rounding(unit_rounding_bound() * (largest - least) * stretch(placement.space));
     result.solid = placed(rotate_extrude(*outline, directions, shape.angle == 360), placement);
     return result;
   }
 
-  // Counter-clockwise as seen from above. An outline left of the axis is swept by the opposite
-  // directions, once it is mirrored to the right.
+  // Counter-clockwise as seen from above.
   static std::vector<std::array<Rational, 2>> ring_directions(const RotateExtrudeShape& shape,
-                                                              const Rational& radius,
-                                                              bool opposite) {
+                                                              const Rational& radius) {
     const double angle = nearest_double(shape.angle);
     const bool closed = shape.angle == 360;
     const double pieces =
@@ -412,13 +410,7 @@ class ExactBuilder {
         cosine = sine_of_degrees(a);
         sine = cosine_of_degrees(a);
       }
-      Rational x = rational_of(cosine);
-      Rational y = rational_of(sine);
-      if (opposite) {
-        x = -x;
-        y = -y;
-      }
-      directions.push_back({std::move(x), std::move(y)});
+      directions.push_back({rational_of(cosine), rational_of(sine)});
     }
     const bool clockwise = shape.start ? angle < 0 : closed || angle < 0;
     if (clockwise) std::reverse(directions.begin(), directions.end());
