@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boost.Spirit X3 reads the tokens, values and the header of one node; the nesting of nodes is an
-// explicit stack, so that its depth costs no call stack (docs/decisions/0010-spirit-x3-reads-csg.md).
+// explicit stack, so that its depth costs no call stack
+// (docs/decisions/0010-spirit-x3-reads-csg.md).
 #include <algorithm>
 #include <boost/spirit/home/x3.hpp>
 #include <functional>
