@@ -396,7 +396,7 @@ Check check_vertices(const std::string& label, const Ours& ours, const WeldedMes
   std::size_t searched = 0;
   for (const std::uint32_t v : used) {
     if (!matching.ours_of[v].empty()) continue;
-    const double reach = 2 * mesh.displacement[v];
+    const double reach = mesh.displacement[v];
     bool explained = false;
     if (++searched <= enough || missing + stray == 0) {
       for (std::uint32_t e = 0; e < ours.boundary.edges.size(); ++e) {

@@ -21,9 +21,11 @@ namespace exactcsg::verify {
 std::vector<Point3> sample_points(const Boundary& boundary, std::size_t count, std::uint64_t seed);
 
 // Classification by the tree, by the retained classifier, and by our boundary alone (parity of
-// exact crossings along a ray) agree on every point; `nef` (may be empty) too.
+// exact crossings along a ray) agree on every point; and `nef`, the classes of the first nef.size()
+// points. Each way stops after the budget; the checks say how many points were classified.
 std::vector<Check> check_sampling(const Solid& solid, const Boundary& boundary,
-                                  std::span<const Point3> points, std::span<const PointClass> nef);
+                                  std::span<const Point3> points, std::span<const PointClass> nef,
+                                  double budget_seconds = 10);
 
 // v(A+B) + v(A*B) = v(A) + v(B), v(A-B) + v(A*B) = v(A), idempotence, absorption, De Morgan, A - A
 // empty, on pairs of random bounded subtrees with at most `primitive_limit` primitives each.

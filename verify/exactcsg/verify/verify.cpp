@@ -24,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_pictured_edges = 20'000;
+constexpr double sampling_seconds = 10;
 constexpr std::size_t most_nef_points = 200;  // each costs Nef a ray
 
 void append(Report& report, std::vector<Check> checks) {
@@ -137,13 +138,13 @@ class Verification {
   }
 
   void run_nef_oracle() {
-    nef_points_ =
+    const auto points =
         sample_points(boundary_, std::min(options_.sample_points, most_nef_points), options_.seed);
     NefLimits limits;
     limits.seconds = options_.budget_seconds;
     limits.memory = options_.memory_limit;
     limits.progress = options_.progress;
-    NefOutcome outcome = run_nef(model_.solid, nef_points_, limits);
+    NefOutcome outcome = run_nef(model_.solid, points, limits);
     if (!outcome.answered) {
       report_.checks.push_back(one_check("nef", Verdict::Skipped, outcome.reason));
       return;
@@ -209,11 +210,10 @@ class Verification {
   }
 
   void run_sampling() {
+    // The points that Nef classified are the first of these.
     const auto points = sample_points(boundary_, options_.sample_points, options_.seed);
-    append(report_, check_sampling(model_.solid, boundary_, points, {}));
-    if (nef_classes_.empty()) return;
-    auto checks = check_sampling(model_.solid, boundary_, nef_points_, nef_classes_);
-    report_.checks.push_back(std::move(checks.back()));
+    append(report_, check_sampling(model_.solid, boundary_, points, nef_classes_,
+                                   std::min(sampling_seconds, options_.budget_seconds)));
   }
 
   void run_laws() {
@@ -235,7 +235,6 @@ class Verification {
   const Boundary& boundary_;
   const VerifyOptions& options_;
   Report report_;
-  std::vector<Point3> nef_points_;
   std::vector<PointClass> nef_classes_;
   std::optional<Boundary> gridded_;
 };
