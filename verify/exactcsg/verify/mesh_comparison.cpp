@@ -376,29 +376,37 @@ Check compare_figure(const std::string& label, const char* what, const Enclosure
   return check;
 }
 
+// Both sides get a share of the list, however long the other is.
+void list_in_turn(Check& check, const std::vector<Mismatch>& missing,
+                  const std::vector<Mismatch>& stray) {
+  for (std::size_t i = 0; i < std::max(missing.size(), stray.size()); ++i) {
+    if (i < missing.size()) add_mismatch(check, missing[i]);
+    if (i < stray.size()) add_mismatch(check, stray[i]);
+  }
+}
+
 Check check_vertices(const std::string& label, const Ours& ours, const WeldedMesh& mesh,
                      Matching& matching) {
   Check check = named(label, "vertices");
   check.ours = std::to_string(ours.positions.size());
   check.theirs = std::to_string(mesh.points.size());
   check.bound = short_number(matching.largest_displacement);
-  std::size_t missing = 0;
+  std::vector<Mismatch> missing;
   for (std::size_t i = 0; i < ours.positions.size(); ++i) {
     if (!matching.theirs_of[i].empty()) continue;
-    ++missing;
-    add_mismatch(check, vertex_mismatch("vertex of the model that the file does not have",
-                                        ours.positions[i]));
+    missing.push_back(
+        vertex_mismatch("vertex of the model that the file does not have", ours.positions[i]));
   }
   std::set<std::uint32_t> used;
   for (const auto& facet : mesh.facets) used.insert(facet.begin(), facet.end());
   constexpr std::size_t enough = 2000;  // beyond, the file is another solid: do not search for each
-  std::size_t stray = 0;
+  std::vector<Mismatch> stray;
   std::size_t searched = 0;
   for (const std::uint32_t v : used) {
     if (!matching.ours_of[v].empty()) continue;
     const double reach = mesh.displacement[v];
     bool explained = false;
-    if (++searched <= enough || missing + stray == 0) {
+    if (++searched <= enough || (missing.empty() && stray.empty())) {
       for (std::uint32_t e = 0; e < ours.boundary.edges.size(); ++e) {
         if (along_segment(ours.from(e), ours.to(e), mesh.positions[v], reach)) {
           matching.edges_of[v].push_back(e);
@@ -410,11 +418,11 @@ Check check_vertices(const std::string& label, const Ours& ours, const WeldedMes
       }
     }
     if (explained) continue;
-    ++stray;
-    add_mismatch(check, vertex_mismatch("vertex of the file that is not on the model's boundary",
-                                        mesh.positions[v]));
+    stray.push_back(vertex_mismatch("vertex of the file that is not on the model's boundary",
+                                    mesh.positions[v]));
   }
-  check.difference = std::to_string(missing + stray);
+  check.difference = std::to_string(missing.size() + stray.size());
+  list_in_turn(check, missing, stray);
   return check;
 }
 
@@ -515,10 +523,7 @@ Check check_edges(const std::string& label, const Ours& ours, const WeldedMesh& 
   check.bound = short_number(reach);
   check.explanation =
       "edges between facets that rounding may have made coplanar are not required to match";
-  for (std::size_t i = 0; i < std::max(missing.size(), stray.size()); ++i) {
-    if (i < missing.size()) add_mismatch(check, missing[i]);
-    if (i < stray.size()) add_mismatch(check, stray[i]);
-  }
+  list_in_turn(check, missing, stray);
   return check;
 }
 

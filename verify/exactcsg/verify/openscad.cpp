@@ -41,8 +41,7 @@ std::string read_text(const fs::path& file) {
 
 // The lines in which OpenSCAD says that it did something else than it was asked for.
 std::string own_faults(const std::string& messages) {
-  constexpr std::string_view signs[] = {"ERROR",           "not closed",       "CGAL error",
-                                        "WARNING: Object", "mixing 2D and 3D", "assertion"};
+  constexpr std::string_view signs[] = {"ERROR", "not closed", "CGAL error", "assertion"};
   std::string faults;
   std::istringstream in(messages);
   for (std::string line; std::getline(in, line);) {

@@ -58,7 +58,7 @@ std::string details(const Check& check) {
   for (const Mismatch& mismatch : check.mismatches) {
     text += fmt::format("  - {}", mismatch.text);
     const std::string place = place_text(mismatch);
-    if (!place.empty()) text += fmt::format("  at {}", place);
+    if (mismatch.text.find(place) == std::string::npos) text += fmt::format("  at {}", place);
     text += "\n";
   }
   if (check.mismatch_count > check.mismatches.size()) {
