@@ -39,7 +39,7 @@ bool colour_wanted(int file_descriptor) {
 std::size_t terminal_width(int file_descriptor) {
   winsize size{};
   if (ioctl(file_descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-  return 100;
+  return 160;  // a file or a log: wide enough that no column is cut
 }
 
 void print_data(std::string_view text) {

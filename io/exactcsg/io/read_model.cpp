@@ -28,6 +28,10 @@ void check_readable(const fs::path& file) {
   if (fs::is_directory(status)) {
     throw Error(ErrorId::FileNotReadable, {"a directory", "a file", position});
   }
+  // A pipe may never end, a device like /dev/zero never does.
+  if (!fs::is_regular_file(status)) {
+    throw Error(ErrorId::FileNotReadable, {"a pipe or device", "a regular file", position});
+  }
   if (!std::ifstream(file)) {
     throw Error(ErrorId::FileNotReadable, {"a file that may not be read", "", position});
   }
