@@ -236,9 +236,13 @@ class GridBuilder {
     return tree_.position(tree_.nodes[node].offset);
   }
 
-  static Solid exact(const Outcome& outcome) {
+  Solid exact(const Outcome& outcome) const {
     if (outcome.dimension != 3 || outcome.is_empty()) return Solid::empty();
-    return outcome.exact ? outcome.solid : cut_to_grid(outcome.soup);
+    try {
+      return outcome.exact ? outcome.solid : cut_to_grid(outcome.soup);
+    } catch (const Error& error) {
+      throw error.at(position(outcome.node));
+    }
   }
 
   Outcome unite(std::span<const Outcome> operands) {

@@ -311,7 +311,8 @@ class Parser {
     if (rest.starts_with("/*")) return rest.find("*/", 2) == std::string_view::npos;
     return std::all_of(at, end_, [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-             c == '_' || c == '$' || c == '.' || c == '-' || c == '+';
+             c == '_' || c == '$' || c == '.' || c == '-' || c == '+' || c == '%' || c == '#' ||
+             c == '!' || c == '*';
     });
   }
 

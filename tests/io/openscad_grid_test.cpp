@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Expected corners: those that OpenSCAD 2021.01 wrote for the same text with
+// `openscad --render=cgal -o x.nef3 x.csg`, as homogeneous integers.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "exactcsg/io/model.hpp"
+#include "exactcsg/solid/evaluate.hpp"
+
+namespace exactcsg::io {
+namespace {
+
+std::vector<Point3> corners(std::string_view text) {
+  ReadOptions options;
+  options.rounding = Rounding::OpenScadGrid;
+  return evaluate(read_openscad_csg(text, "x.csg", options).solid).vertices;
+}
+
+Point3 on_grid(long x, long y, long z) {
+  const Rational cell(1, 1048576);
+  return {x * cell, y * cell, z * cell};
+}
+
+const std::string turn =
+    "multmatrix([[0.866025, -0.5, 0, 0.1], [0.5, 0.866025, 0, 0.2], [0, 0, 1, 0.3], [0, 0, 0, 1]])";
+
+TEST(OpenscadGrid, CutsALonePrimitive) {
+  const auto found = corners("sphere($fn = 8, $fa = 12, $fs = 2, r = 1.3);");
+  EXPECT_EQ(found.size(), 32U);
+  EXPECT_THAT(found, testing::IsSupersetOf(
+                         {on_grid(-890519, -890519, -521654), on_grid(-1259385, 0, 521654),
+                          on_grid(521654, 0, 1259385), on_grid(890519, 890519, 521654)}));
+}
+
+TEST(OpenscadGrid, MapsPolygonsInDoubleBeforeItCutsThem) {
+  const auto found = corners(turn + "{ cube(size = [1, 2, 3], center = false); }");
+  EXPECT_THAT(found, testing::UnorderedElementsAre(
+                         on_grid(-943718, 2025901, 3460300), on_grid(-35625, 2550189, 3460300),
+                         on_grid(104857, 209715, 3460300), on_grid(-35625, 2550189, 314572),
+                         on_grid(1012950, 734003, 3460300), on_grid(1012950, 734003, 314572),
+                         on_grid(104857, 209715, 314572), on_grid(-943718, 2025901, 314572)));
+}
+
+TEST(OpenscadGrid, LeavesAUnionWithOneOperandUncut) {
+  const std::string cube = "cube(size = [1, 2, 3]);";
+  EXPECT_EQ(corners(turn + "{ union() { group(); " + cube + " cube(0); } }"),
+            corners(turn + "{ " + cube + " }"));
+}
+
+// Here the empty group is an operand, so the cube is cut first and then mapped exactly.
+TEST(OpenscadGrid, MapsResultsOfBooleansExactly) {
+  const auto found = corners(turn + "{ difference() { cube(size = [1, 2, 3]); group(); } }");
+  Point3 expected{Rational("-32425917317067571/36028797018963968"),
+                  Rational("69609437280489338/36028797018963968"),
+                  Rational("118895030162581094/36028797018963968")};
+  for (Rational* c : {&expected.x, &expected.y, &expected.z}) c->canonicalize();
+  EXPECT_THAT(found, testing::Contains(expected));
+}
+
+TEST(OpenscadGrid, SendsPlanarOperationsThroughTheClippingGrid) {
+  const std::string circle = "circle(r = 1.23457, $fn = 5);";
+  EXPECT_THAT(corners("linear_extrude(height = 1) { " + circle + " }"),
+              testing::Contains(on_grid(323635 * 4, 0, 0)));
+  EXPECT_THAT(corners("linear_extrude(height = 1) { group(); " + circle + " }"),
+              testing::Contains(on_grid(20227 * 64, 0, 1048576)));
+}
+
+TEST(OpenscadGrid, RefusesWhatOpenscadsChoicesDecide) {
+  ReadOptions options;
+  options.rounding = Rounding::OpenScadGrid;
+  try {
+    read_openscad_csg("linear_extrude(height = 1) { difference() { circle(3); square(2.34567); } }",
+                      "x.csg", options);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.id(), ErrorId::UnsupportedNode) << error.what();
+    EXPECT_TRUE(error.details().position);
+  }
+}
+
+}  // namespace
+}  // namespace exactcsg::io
