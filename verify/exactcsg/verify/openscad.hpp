@@ -31,6 +31,7 @@ struct OpenScadOptions {
   unsigned threads = 1;
   bool exports = true;  // comparison 3
   Progress* progress = nullptr;
+  std::vector<std::string>* notes = nullptr;  // what the reader of a report should know
 };
 
 // The exact complex of a .nef3 file ("Selective Nef Complex, standard"). Only facets that separate

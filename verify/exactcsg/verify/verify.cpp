@@ -160,6 +160,7 @@ class Verification {
     options.memory_limit = options_.memory_limit;
     options.threads = options_.threads;
     options.progress = options_.progress;
+    options.notes = &report_.notes;
     append(report_, compare_with_openscad(model_, boundary_, options_.source, options));
   }
 
