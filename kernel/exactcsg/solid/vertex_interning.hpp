@@ -3,7 +3,9 @@
 
 // Equal positions found among many vertices: one number for each distinct exact position. [Exact]
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,7 +23,28 @@ struct KeyInterval {
 // Sorts by lower ends and calls visit(span of intervals) for each maximal run that is connected by
 // overlaps. Intervals that are not finite form a run with everything.
 template <class Visit>
-void for_each_cluster(std::vector<KeyInterval>& intervals, Visit visit);
+void for_each_cluster(std::vector<KeyInterval>& intervals, Visit visit) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (KeyInterval& interval : intervals) {
+    if (!(interval.lower > -infinity && interval.upper < infinity)) {
+      interval.lower = -infinity;
+      interval.upper = infinity;
+    }
+  }
+  std::sort(intervals.begin(), intervals.end(), [](const KeyInterval& a, const KeyInterval& b) {
+    return a.lower < b.lower || (a.lower == b.lower && a.item < b.item);
+  });
+  for (std::size_t begin = 0; begin < intervals.size();) {
+    double reach = intervals[begin].upper;
+    std::size_t end = begin + 1;
+    while (end < intervals.size() && intervals[end].lower <= reach) {
+      reach = std::max(reach, intervals[end].upper);
+      ++end;
+    }
+    visit(std::span(intervals).subspan(begin, end - begin));
+    begin = end;
+  }
+}
 
 struct InternedVertices {
   std::vector<std::uint32_t> number;  // of each vertex given
@@ -34,5 +57,3 @@ InternedVertices intern(const Geometry& geometry, std::span<const Vertex* const>
                         TierStatistics& statistics);
 
 }  // namespace exactcsg
-
-#include "exactcsg/solid/vertex_interning.inl"
