@@ -136,6 +136,22 @@ Polyhedron polyhedron_of(const std::vector<ExactPoint3>& vertices,
   return polyhedron;
 }
 
+// Of four points CGAL makes a tetrahedron turned as the points happen to lie.
+void turn_outwards(const std::vector<ExactPoint3>& vertices, std::vector<Triangle>& triangles) {
+  const Triangle& first = triangles.front();
+  for (const ExactPoint3& vertex : vertices) {
+    switch (CGAL::orientation(vertices[first[0]], vertices[first[1]], vertices[first[2]], vertex)) {
+      case CGAL::COPLANAR:
+        continue;
+      case CGAL::NEGATIVE:
+        return;
+      case CGAL::POSITIVE:
+        for (Triangle& triangle : triangles) std::swap(triangle[1], triangle[2]);
+        return;
+    }
+  }
+}
+
 Solid hull_of(std::vector<ExactPoint3> points) {
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -143,6 +159,7 @@ Solid hull_of(std::vector<ExactPoint3> points) {
   std::vector<ExactPoint3> vertices;
   std::vector<Triangle> triangles;
   CGAL::convex_hull_3(points.begin(), points.end(), vertices, triangles);
+  turn_outwards(vertices, triangles);
   Polyhedron polyhedron = polyhedron_of(vertices, Merger(vertices, triangles).faces());
   return Solid::primitive({make_convex_polytope_unchecked(std::move(polyhedron))});
 }
