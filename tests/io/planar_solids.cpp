@@ -321,6 +321,15 @@ TEST(PlanarHull3, MergesCoplanarFacets) {
   EXPECT_EQ(polyhedron.vertices.size(), 8U);
 }
 
+TEST(PlanarHull3, TetrahedraAreTurnedOutwards) {
+  // Every order of the corners gives the tetrahedron of volume 1/3 inscribed in the unit cube; CGAL
+  // returns one turned inside out for half of them.
+  std::vector<Point3> corners{{0, 0, 0}, {0, 1, 1}, {1, 0, 1}, {1, 1, 0}};
+  EXPECT_EQ(checked_volume(hull(corners)), Rational(1, 3));
+  for (Point3& p : corners) p.x = -p.x;
+  EXPECT_EQ(checked_volume(hull(corners)), Rational(1, 3));
+}
+
 TEST(PlanarHull3, FlatSetsAreEmpty) {
   EXPECT_TRUE(hull(std::vector<Point3>{}).is_empty());
   EXPECT_TRUE(hull(std::vector<Point3>(7, {1, 2, 3})).is_empty());
