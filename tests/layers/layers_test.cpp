@@ -103,8 +103,8 @@ TEST(Licences, EveryFileNamesItsLicenceFirst) {
     const std::string extension = file.extension().string();
     // Formats that have no comments, and inputs of tests that must be what they are.
     if (extension == ".json" || extension == ".csg" || extension == ".scad" ||
-        extension == ".off" || extension == ".stl" || extension == ".obj" || extension == ".ply" ||
-        extension == ".svg" || extension == ".png" || extension == ".html") {
+        extension == ".nef3" || extension == ".off" || extension == ".stl" || extension == ".obj" ||
+        extension == ".ply" || extension == ".svg" || extension == ".png" || extension == ".html") {
       continue;
     }
     if (file.string().starts_with("fuzz/seeds/")) continue;
