@@ -17,6 +17,9 @@ function(exactcsg_install_package)
   configure_package_config_file(cmake/exactcsgConfig.cmake.in exactcsgConfig.cmake
     INSTALL_DESTINATION ${cmake_dir})
   write_basic_package_version_file(exactcsgConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  # Relative, so that the tree may be installed or moved anywhere.
+  file(RELATIVE_PATH exactcsg_prefix_from_pkgconfig
+    /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
   configure_file(cmake/exactcsg.pc.in exactcsg.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/exactcsgConfig.cmake
     ${PROJECT_BINARY_DIR}/exactcsgConfigVersion.cmake DESTINATION ${cmake_dir})

@@ -67,12 +67,34 @@ TEST(OpenscadGrid, SendsPlanarOperationsThroughTheClippingGrid) {
               testing::Contains(on_grid(20227 * 64, 0, 1048576)));
 }
 
+// Crossings are rounded by the clipping library in its own way.
+TEST(OpenscadGrid, RoundsCrossingsAsTheClippingLibraryDoes) {
+  const auto found = corners(
+      "linear_extrude(height = 1) { difference() { circle(r = 3, $fn = 7); square(2.34567); } }");
+  EXPECT_EQ(found.size(), 22U);
+  for (const long z : {0L, 1048576L}) {
+    EXPECT_THAT(found,
+                testing::IsSupersetOf(
+                    {on_grid(122583 * 16, -153714 * 16, z), on_grid(122535 * 16, 153725 * 16, z),
+                     on_grid(153725 * 16, 89047 * 16, z), on_grid(-177137 * 16, 85305 * 16, z)}));
+  }
+}
+
 TEST(OpenscadGrid, RefusesWhatOpenscadsChoicesDecide) {
   ReadOptions options;
   options.rounding = Rounding::OpenScadGrid;
+  // A prism over an L whose faces of four and six corners are not planar once turned and cut.
+  const std::string prism =
+      "polyhedron(points = [[0,0,0],[3,0,0],[3,1,0],[1,1,0],[1,2,0],[0,2,0],"
+      "[0,0,1],[3,0,1],[3,1,1],[1,1,1],[1,2,1],[0,2,1]], "
+      "faces = [[0,1,2,3,4,5],[11,10,9,8,7,6],[6,7,1,0],[7,8,2,1],[8,9,3,2],[9,10,4,3],[10,11,5,4],"
+      "[11,6,0,5]]);";
+  const std::string tilt =
+      "multmatrix([[0.866025, -0.433013, 0.25, 0.1], [0.5, 0.75, -0.433013, 0.2], "
+      "[0, 0.5, 0.866025, 0.3], [0, 0, 0, 1]])";
+  EXPECT_EQ(evaluate(read_openscad_csg(prism, "x.csg", options).solid).vertices.size(), 12U);
   try {
-    read_openscad_csg("linear_extrude(height = 1) { difference() { circle(3); square(2.34567); } }",
-                      "x.csg", options);
+    read_openscad_csg(tilt + "{ " + prism + " }", "x.csg", options);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.id(), ErrorId::UnsupportedNode) << error.what();

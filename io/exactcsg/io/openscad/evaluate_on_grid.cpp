@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "exactcsg/io/openscad/clipping.hpp"
 #include "exactcsg/io/openscad/degree_trigonometry.hpp"
 #include "exactcsg/io/openscad/evaluate.hpp"
 #include "exactcsg/io/openscad/grid_rounding.hpp"
@@ -17,16 +18,6 @@ namespace exactcsg::io::openscad {
 namespace {
 
 using csg::BooleanOperator;
-using DoublePoint2 = std::array<double, 2>;
-
-struct Outline {
-  std::vector<DoublePoint2> vertices;
-  bool positive = true;  // not a hole
-};
-struct DoubleFigure {
-  std::vector<Outline> outlines;
-};
-
 struct GridOutcome {
   std::uint32_t node = 0;
   int dimension = 0;
@@ -41,87 +32,12 @@ struct GridOutcome {
   }
 };
 
-// The clipping library's integers.
-constexpr double clipping_scale = 65536.0;
-
-Rational clipped(double value) {
-  return Rational(Integer(std::trunc(value * clipping_scale))) / 65536;
-}
-
-PlanarTree clipped(const DoubleFigure& figure) {
-  PlanarFigure result;
-  for (const Outline& outline : figure.outlines) {
-    auto& path = result.paths.emplace_back();
-    for (const auto& [x, y] : outline.vertices) path.push_back({clipped(x), clipped(y)});
-  }
-  return result.paths.empty() ? PlanarTree::empty() : PlanarTree::primitive(std::move(result));
-}
-
-double distance_to_line_squared(const DoublePoint2& p, const DoublePoint2& a,
-                                const DoublePoint2& b) {
-  const double nx = a[1] - b[1];
-  const double ny = b[0] - a[0];
-  const double c = nx * (p[0] - a[0]) + ny * (p[1] - a[1]);
-  return c * c / (nx * nx + ny * ny);
-}
-
-// Whether the library's clean-up could drop the middle one of three vertices.
-bool would_be_cleaned(const DoublePoint2& a, const DoublePoint2& b, const DoublePoint2& c) {
-  // The library's own default: 1.415 of its units. Measured: a vertex one unit off the line of its
-  // neighbours is dropped, two units off it is kept.
-  constexpr double distance = 1.415 / clipping_scale;
-  constexpr double least = distance * distance;
-  const auto squared = [](const DoublePoint2& p, const DoublePoint2& q) {
-    return (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]);
-  };
-  if (squared(a, b) <= least || squared(a, c) <= least) return true;
-  const std::size_t axis = std::fabs(a[0] - b[0]) > std::fabs(a[1] - b[1]) ? 0 : 1;
-  if ((a[axis] > b[axis]) == (a[axis] < c[axis])) return distance_to_line_squared(a, b, c) < least;
-  if ((b[axis] > a[axis]) == (b[axis] < c[axis])) return distance_to_line_squared(b, a, c) < least;
-  return distance_to_line_squared(c, a, b) < least;
-}
-
-// What comes out of the clipping library.
-DoubleFigure through_clipping(const PlanarTree& tree) {
-  DoubleFigure result;
-  if (tree.is_empty()) return result;
-  for (const auto& path : resolve(tree).paths) {
-    Outline& outline = result.outlines.emplace_back();
-    double area = 0;
-    for (const Point2& p : path) {
-      if (Rational(p.x * 65536).get_den() != 1 || Rational(p.y * 65536).get_den() != 1) {
-        throw Error(ErrorId::UnsupportedNode,
-                    {"a planar Boolean whose corners are off the clipping grid", ""});
-      }
-      outline.vertices.push_back({nearest_double(p.x), nearest_double(p.y)});
-    }
-    const auto& v = outline.vertices;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      const auto& q = v[(i + 1) % v.size()];
-      area += v[i][0] * q[1] - v[i][1] * q[0];
-      if (would_be_cleaned(v[i], q, v[(i + 2) % v.size()])) {
-        throw Error(ErrorId::UnsupportedNode,
-                    {"an outline with a vertex that OpenSCAD's clean-up may drop", ""});
-      }
-    }
-    outline.positive = area > 0;
-  }
-  return result;
-}
-
 DoubleFigure clip(BooleanOperator operation, std::span<const GridOutcome> operands) {
-  std::vector<PlanarTree> trees;
-  for (std::size_t i = 0; i < operands.size(); ++i) {
-    const bool empty = operands[i].dimension != 2 || operands[i].is_empty();
-    if (!empty) {
-      trees.push_back(clipped(operands[i].planar));
-    } else if (operation == BooleanOperator::Intersection ||
-               (operation == BooleanOperator::Difference && i == 0)) {
-      return {};
-    }
+  std::vector<DoubleFigure> figures;
+  for (const GridOutcome& operand : operands) {
+    figures.push_back(operand.dimension == 2 ? operand.planar : DoubleFigure{});
   }
-  if (trees.empty()) return {};
-  return through_clipping(PlanarTree::compose(operation, std::move(trees)));
+  return clip(operation, figures);
 }
 
 bool is_convex(const DoubleFigure& figure) {
@@ -318,7 +234,7 @@ class GridBuilder {
       figure.outlines.clear();
       return;
     }
-    for (Outline& outline : figure.outlines) {
+    for (DoubleOutline& outline : figure.outlines) {
       for (auto& [x, y] : outline.vertices) {
         const double u = m[0][0] * x + (m[0][1] * y + m[0][3]);
         const double v = m[1][0] * x + (m[1][1] * y + m[1][3]);
@@ -326,7 +242,7 @@ class GridBuilder {
         y = v;
       }
     }
-    if (area < 0) figure = through_clipping(clipped(figure));
+    if (area < 0) figure = sanitized(figure, Winding::Keep);
   }
 
   Outcome hull_of(std::span<const Outcome> operands) {
@@ -341,7 +257,7 @@ class GridBuilder {
   static void planar_hull(std::span<const Outcome> operands, Outcome& result) {
     std::vector<PlanarTree> trees;
     for (const Outcome& operand : operands) {
-      for (const Outline& outline : operand.planar.outlines) {
+      for (const DoubleOutline& outline : operand.planar.outlines) {
         PlanarFigure figure;
         auto& path = figure.paths.emplace_back();
         for (const auto& [x, y] : outline.vertices)
@@ -352,7 +268,7 @@ class GridBuilder {
     if (trees.empty()) return;
     const auto corners = hull(PlanarTree::compose(BooleanOperator::Union, std::move(trees)));
     if (corners.size() < 3) return;
-    Outline& outline = result.planar.outlines.emplace_back();
+    DoubleOutline& outline = result.planar.outlines.emplace_back();
     for (const Point2& p : corners) {
       outline.vertices.push_back({nearest_double(p.x), nearest_double(p.y)});
     }
@@ -471,14 +387,14 @@ class GridBuilder {
     if (kind == NodeKind::Polygon) {
       PlanarFigure given = read_polygon(tree_, node, warnings_);
       for (const auto& path : given.paths) {
-        Outline& outline = figure.outlines.emplace_back();
+        DoubleOutline& outline = figure.outlines.emplace_back();
         for (const Point2& p : path) {
           outline.vertices.push_back({nearest_double(p.x), nearest_double(p.y)});
         }
       }
-      return through_clipping(clipped(figure));
+      return sanitized(figure, Winding::MakePositive);
     }
-    Outline outline;
+    DoubleOutline outline;
     if (kind == NodeKind::Square) {
       const SquareShape shape = read_square(tree_, node, warnings_);
       const double x = nearest_double(shape.size[0]);
@@ -530,7 +446,7 @@ class GridBuilder {
     }
     const std::size_t slices = shape.slices ? *shape.slices : slice_count(shape, *figure);
     std::size_t vertices = 0;
-    for (const Outline& outline : figure->outlines) vertices += outline.vertices.size();
+    for (const DoubleOutline& outline : figure->outlines) vertices += outline.vertices.size();
     count_vertices(vertices, slices + 1);
     const auto count = static_cast<double>(slices);
     for (std::size_t j = 0; j < slices; ++j) {
@@ -548,7 +464,7 @@ class GridBuilder {
   static void add_cap(Soup& soup, const DoubleFigure& figure, const LevelMap& map, double z,
                       bool upward) {
     Cap& cap = soup.caps.emplace_back();
-    for (const Outline& outline : figure.outlines) {
+    for (const DoubleOutline& outline : figure.outlines) {
       auto& loop = cap.loops.emplace_back();
       for (const DoublePoint2& v : outline.vertices) {
         const auto [x, y] = map(v);
@@ -566,7 +482,7 @@ class GridBuilder {
     const bool any_zero = scale2[0] == 0 || scale2[1] == 0;
     const bool any_non_zero = scale2[0] != 0 || scale2[1] != 0;
     const bool back_twist = turn2 <= turn1;
-    for (const Outline& outline : figure.outlines) {
+    for (const DoubleOutline& outline : figure.outlines) {
       const auto& v = outline.vertices;
       DoublePoint2 p1 = lower(v[0]);
       DoublePoint2 p2 = upper(v[0]);
@@ -602,7 +518,7 @@ class GridBuilder {
     const double sy = nearest_double(shape.scale[1]);
     double radius_squared = 0;
     double delta_squared = 0;
-    for (const Outline& outline : figure.outlines) {
+    for (const DoubleOutline& outline : figure.outlines) {
       for (const auto& [x, y] : outline.vertices) {
         radius_squared = std::max(radius_squared, x * x + y * y);
         const double dx = x - x * sx;
@@ -630,7 +546,7 @@ class GridBuilder {
     double least = 0;
     double largest = 0;
     std::size_t vertices = 0;
-    for (const Outline& outline : figure->outlines) {
+    for (const DoubleOutline& outline : figure->outlines) {
       vertices += outline.vertices.size();
       for (const auto& [x, y] : outline.vertices) {
         least = std::min(least, x);
@@ -649,7 +565,7 @@ class GridBuilder {
     const bool flip =
         (least >= 0 && angle > 0 && angle != 360) || (least < 0 && (angle < 0 || angle == 360));
     if (angle != 360) add_rotation_caps(result.soup, *figure, angle, flip);
-    for (const Outline& outline : figure->outlines) {
+    for (const DoubleOutline& outline : figure->outlines) {
       add_rings(result.soup, outline, angle, count, flip);
     }
     return result;
@@ -660,7 +576,7 @@ class GridBuilder {
     const double s = sine_of_degrees(angle);
     Cap start;
     Cap end;
-    for (const Outline& outline : figure.outlines) {
+    for (const DoubleOutline& outline : figure.outlines) {
       auto& first = start.loops.emplace_back();
       auto& last = end.loops.emplace_back();
       for (const auto& [x, y] : outline.vertices) {
@@ -673,7 +589,7 @@ class GridBuilder {
     soup.caps.push_back(std::move(end));
   }
 
-  static void add_rings(Soup& soup, const Outline& outline, double angle, std::size_t count,
+  static void add_rings(Soup& soup, const DoubleOutline& outline, double angle, std::size_t count,
                         bool flip) {
     const std::size_t m = outline.vertices.size();
     const auto ring_at = [&](double a) {

@@ -12,11 +12,11 @@
 // A union (group, multmatrix, color, render, the file itself) with one operand that is not empty is
 // no operation and leaves a soup as it is; the last soup is cut, as the export does it. Planar
 // figures are double polygons until an operation with two or more children, a mirror or a polygon()
-// sends them through the clipping library at a scale of 2^16, cut toward zero.
+// sends them through the clipping library (clipping.hpp).
 //
 // What cannot be foretold without being OpenSCAD is refused (Error(UnsupportedNode)), never
 // guessed: which diagonals its triangulation takes in a polygon that is no longer planar once it is
-// cut, planar intersections off the clipping grid, and outlines that its clean-up would thin out.
+// cut.
 
 #include <array>
 #include <cstddef>
