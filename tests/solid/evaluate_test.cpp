@@ -249,6 +249,23 @@ TEST(Evaluate, ManyCoincidentOperands) {
             1 + 29 / Rational("1000000000000000000"));
 }
 
+// Cell walls divide the facets of both bars, and other primitives' planes do; one box of each is
+// cut by nothing else. LAW whole.1 is that of the digests, the count says that parts were joined.
+TEST(Evaluate, FacetsThatOnlyWallsCutStayWhole) {
+  std::vector<Solid> parts;
+  for (int i = 0; i < 12; ++i) parts.push_back(box(2 * i, 0, 0, 2 * i + 1, 9, 9));
+  const Solid row = Solid::compose(csg::BooleanOperator::Union, parts);
+  EvaluateOptions fine;
+  fine.facets_per_cell = 3;
+  const Boundary apart = evaluate(row, fine);
+  EXPECT_GT(apart.statistics.cells, 12U);
+  EXPECT_EQ(apart.statistics.pieces, 12U * 6U);
+  // Inside out as well: the facets of what is taken away are turned.
+  const Boundary holes = evaluate(csg::subtract(box(-1, -1, -1, 24, 10, 10), row), fine);
+  EXPECT_EQ(holes.statistics.pieces, 13U * 6U);
+  EXPECT_EQ(volume(holes), 25 * 11 * 11 - 12 * 81);
+}
+
 // An L-shaped mesh against boxes: volumes by hand (the L has volume 3).
 TEST(Evaluate, MeshesAreLeavesToo) {
   Polyhedron l;

@@ -9,10 +9,10 @@ namespace exactcsg {
 
 using csg::Membership;
 
-void PieceBuffer::add(OrientedPlaneRef outward, signed char corner_sense,
-                      std::span<const Corner> polygon) {
+void PieceBuffer::add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
+                      std::uint64_t share, std::span<const Corner> polygon) {
   pieces.push_back({outward, corner_sense, static_cast<std::uint32_t>(corners.size()),
-                    static_cast<std::uint32_t>(polygon.size())});
+                    static_cast<std::uint32_t>(polygon.size()), facet, share});
   corners.insert(corners.end(), polygon.begin(), polygon.end());
 }
 
@@ -76,9 +76,29 @@ void CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree
     front_[facet.primitive] = outward_front ? Membership::Out : Membership::In;
     behind_[facet.primitive] = outward_front ? Membership::In : Membership::Out;
     pool_.assign(facet.polygon.corners.begin(), facet.polygon.corners.end());
-    classify({0, pool_.size()}, 0);
+    const std::size_t first_piece = result.pieces.size();
+    const std::size_t first_corner = result.corners.size();
+    classify({0, pool_.size(), facet.share}, 0);
+    join_pieces(facet, first_piece, first_corner);
     front_[facet.primitive] = behind_[facet.primitive] = Membership::Unknown;
   }
+}
+
+// Other primitives' planes may cut a facet that all of them leave alone in the end.
+void CellEvaluator::join_pieces(const CellFacet& facet, std::size_t first_piece,
+                                std::size_t first_corner) {
+  const auto pieces = std::span(result_->pieces).subspan(first_piece);
+  if (pieces.size() < 2 || facet.share == 0) return;
+  std::uint64_t sum = 0;
+  for (const BoundaryPiece& piece : pieces) {
+    if (piece.plane != pieces.front().plane) return;
+    sum += piece.share;
+  }
+  if (sum != facet.share) return;
+  const BoundaryPiece joined = pieces.front();
+  result_->pieces.resize(first_piece);
+  result_->corners.resize(first_corner);
+  result_->add(joined.plane, joined.corner_sense, facet.facet, facet.share, facet.polygon.corners);
 }
 
 Membership CellEvaluator::truth(const std::vector<Membership>& status) {
@@ -98,6 +118,7 @@ void CellEvaluator::classify(Range piece, std::size_t next) {
     if (next >= coplanar_count_) {
       const signed char outward = behind == Membership::In ? 1 : -1;
       result_->add({facet_->polygon.plane.plane, outward}, facet_->polygon.plane.sense,
+                   facet_->facet, piece.share,
                    std::span(pool_).subspan(piece.begin, piece.end - piece.begin));
       return;
     }
@@ -138,8 +159,10 @@ void CellEvaluator::descend(Range piece, LocalPlace front, LocalPlace behind, st
       const std::size_t negative_begin = pool_.size();
       append_part(scene_.geometry, polygon, own, node.plane, signs_, Sign::Negative, pool_);
       const std::size_t end = pool_.size();
-      descend({positive_begin, negative_begin}, follow(front, true), follow(behind, true), next);
-      descend({negative_begin, end}, follow(front, false), follow(behind, false), next);
+      const std::uint64_t half = piece.share / 2;
+      descend({positive_begin, negative_begin, half}, follow(front, true), follow(behind, true),
+              next);
+      descend({negative_begin, end, half}, follow(front, false), follow(behind, false), next);
       pool_.resize(positive_begin);
       return;
     }

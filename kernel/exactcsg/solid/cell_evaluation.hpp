@@ -19,23 +19,35 @@
 
 namespace exactcsg {
 
+// How much of a facet a polygon is, as a share of `whole`: every cut into two halves the share of
+// either part, whatever their areas. The parts of a facet that have a share therefore add up to
+// `whole` only if none is missing. After 62 cuts a part has no share any more.
+namespace facet_share {
+inline constexpr std::uint64_t whole = std::uint64_t{1} << 62U;
+}
+
 struct BoundaryPiece {
   OrientedPlaneRef plane;        // outward normal of the solid
   signed char corner_sense = 1;  // corners are counter-clockwise about the stored normal if +1
   std::uint32_t first_corner = 0;
   std::uint32_t corner_count = 0;
+  FacetIndex facet = 0;     // of the scene, that this is a part of
+  std::uint64_t share = 0;  // of that facet
 };
 
 struct PieceBuffer {
   std::vector<BoundaryPiece> pieces;
   std::vector<Corner> corners;
 
-  void add(OrientedPlaneRef outward, signed char corner_sense, std::span<const Corner> polygon);
+  void add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
+           std::uint64_t share, std::span<const Corner> polygon);
 };
 
 // A facet polygon of a cell and the primitive it belongs to; those of one primitive are adjacent.
 struct CellFacet {
   PrimitiveIndex primitive = 0;
+  FacetIndex facet = 0;
+  std::uint64_t share = facet_share::whole;
   FacetPolygon polygon;
 };
 
@@ -50,9 +62,11 @@ class CellEvaluator {
                 TierStatistics& statistics);
 
  private:
+  // Corners of the pool, and what share of the facet they bound.
   struct Range {
     std::size_t begin;
     std::size_t end;
+    std::uint64_t share;
   };
   struct LocalPrimitive {
     PrimitiveIndex primitive;
@@ -64,6 +78,7 @@ class CellEvaluator {
   void build_local_forms(std::span<const CellFacet> facets);
   void order_primitives_for(const CellFacet& facet, std::span<const CellFacet> facets);
   void classify(Range piece, std::size_t next);
+  void join_pieces(const CellFacet& facet, std::size_t first_piece, std::size_t first_corner);
   void descend(Range piece, LocalPlace front, LocalPlace behind, std::size_t next);
   csg::Membership truth(const std::vector<csg::Membership>& status);
 

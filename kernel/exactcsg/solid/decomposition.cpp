@@ -201,6 +201,7 @@ class Decomposition::Divider {
     added.clipped = true;
     added.first_corner = static_cast<std::uint32_t>(child.corners.size());
     if (cut) {
+      added.share = facet.share / 2;
       const PlaneRef wall = PlaneRef::of_wall(division_.axis, division_.position);
       TierStatistics& statistics = which == WallSide::Below ? below_statistics_ : task_.statistics;
       // The signs are needed again; the filter makes them cheap.
@@ -275,7 +276,10 @@ CellTask Decomposition::root() const {
   for (FacetIndex f = 0; f < scene_.facets.size(); ++f) {
     const SceneFacet& facet = scene_.facets[f];
     if (in_tree[facet.primitive] == 0) continue;
-    ClippedFacet whole{f, facet.first_corner, facet.corner_count, false, {}, {}};
+    ClippedFacet whole;
+    whole.facet = f;
+    whole.first_corner = facet.first_corner;
+    whole.corner_count = facet.corner_count;
     set_bounds(whole, std::span(scene_.corners).subspan(facet.first_corner, facet.corner_count));
     task.facets.push_back(whole);
   }
@@ -412,7 +416,8 @@ void Decomposition::collect_facets(const CellTask& task, std::vector<CellFacet>&
   facets.reserve(task.facets.size());
   for (const ClippedFacet& facet : task.facets) {
     const SceneFacet& original = scene_.facets[facet.facet];
-    facets.push_back({original.primitive, {original.plane, corners_of(task, facet)}});
+    facets.push_back(
+        {original.primitive, facet.facet, facet.share, {original.plane, corners_of(task, facet)}});
   }
 }
 

@@ -29,6 +29,7 @@ struct ClippedFacet {
   std::uint32_t first_corner = 0;
   std::uint32_t corner_count = 0;
   bool clipped = false;  // corners in the task's own store, otherwise in the scene's
+  std::uint64_t share = facet_share::whole;
   std::array<double, 3> lower{};
   std::array<double, 3> upper{};
 };

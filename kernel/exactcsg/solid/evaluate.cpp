@@ -10,6 +10,7 @@
 #include "exactcsg/solid/canonical_boundary.hpp"
 #include "exactcsg/solid/classify.hpp"
 #include "exactcsg/solid/decomposition.hpp"
+#include "exactcsg/solid/whole_facets.hpp"
 
 namespace exactcsg {
 
@@ -109,8 +110,8 @@ class Evaluation {
     for (const ClippedFacet& facet : cell.facets) {
       const OrientedPlaneRef plane = scene_.facets[facet.facet].plane;
       const int sense = inside == Membership::In ? plane.sense : -plane.sense;
-      buffer.add({plane.plane, static_cast<signed char>(sense)}, plane.sense,
-                 decomposition_.corners_of(cell, facet));
+      buffer.add({plane.plane, static_cast<signed char>(sense)}, plane.sense, facet.facet,
+                 facet.share, decomposition_.corners_of(cell, facet));
     }
   }
 
@@ -163,8 +164,9 @@ Boundary evaluate(const Solid& solid, const EvaluateOptions& options) {
   if (options.progress != nullptr) options.progress->begin("prepare", 0);
   const Scene scene = make_scene(solid);
   if (options.progress != nullptr) options.progress->begin("decompose", scene.facets.size());
-  const CellResult result = run(scene, options);
+  CellResult result = run(scene, options);
   require_bounded(solid, scene, result.buffers);
+  restore_whole_facets(scene, result.buffers);
   if (options.progress != nullptr) options.progress->begin("merge", 0);
   Boundary boundary =
       merge_pieces(scene.geometry, result.buffers, options.threads, options.progress);
