@@ -99,21 +99,46 @@ struct Leading {
   long shift;
 };
 
+// The first 64 bits of the magnitude, the first of them set. REQUIRES value != 0
+std::uint64_t first_64_bits(const Integer& value) {
+  const mp_limb_t* limbs = mpz_limbs_read(value.get_mpz_t());
+  const std::size_t size = mpz_size(value.get_mpz_t());
+  const int zeros = std::countl_zero(static_cast<std::uint64_t>(limbs[size - 1]));
+  std::uint64_t bits = limbs[size - 1] << zeros;
+  if (zeros != 0 && size > 1) bits |= limbs[size - 2] >> (64 - zeros);
+  return bits;
+}
+
 // |numerator| * 2^-shift. REQUIRES numerator != 0
 Leading leading_bits(const Integer& numerator, long shift) {
-  const mp_limb_t* limbs = mpz_limbs_read(numerator.get_mpz_t());
-  const std::size_t size = mpz_size(numerator.get_mpz_t());
-  const int zeros = std::countl_zero(static_cast<std::uint64_t>(limbs[size - 1]));
-  std::uint64_t mantissa = limbs[size - 1] << zeros;
-  if (zeros != 0 && size > 1) mantissa |= limbs[size - 2] >> (64 - zeros);
+  std::uint64_t mantissa = first_64_bits(numerator);
   const long cut = static_cast<long>(bit_length(numerator)) - 64;
   if (cut > 0 && static_cast<long>(mpz_scan1(numerator.get_mpz_t(), 0)) < cut) mantissa |= 1U;
   return {mantissa, shift - cut};
 }
 
+// The same from the first 64 bits of either, if that is certain. With both cut by less than one the
+// quotient below is off by less than five; only the half of the last place decides how it is
+// rounded.
+std::optional<Leading> leading_bits_quickly(const Integer& numerator, const Integer& denominator,
+                                            long shift) {
+  __extension__ using Wide = unsigned __int128;
+  constexpr long clear_of_subnormals = 1000;
+  if (std::abs(shift) > clear_of_subnormals) return std::nullopt;
+  const auto quotient = static_cast<std::uint64_t>(
+      (static_cast<Wide>(first_64_bits(numerator)) << 63U) / first_64_bits(denominator));
+  const int dropped = static_cast<int>(std::bit_width(quotient)) - 53;
+  const std::uint64_t rest = quotient & ((std::uint64_t{1} << dropped) - 1U);
+  const std::uint64_t half = std::uint64_t{1} << (dropped - 1);
+  constexpr std::uint64_t margin = 8;
+  if (rest + margin > half && rest < half + margin) return std::nullopt;
+  return Leading{quotient | 1U, shift};
+}
+
 // |numerator| / denominator, whose bit lengths differ by e.
 Leading leading_bits(const Integer& numerator, const Integer& denominator, long e) {
   const long shift = 63 - e;
+  if (const auto quick = leading_bits_quickly(numerator, denominator, shift)) return *quick;
   Integer scaled = abs(numerator);
   Integer divisor = denominator;
   if (shift >= 0) {

@@ -35,7 +35,10 @@ struct Geometry::Data {
   std::span<const std::uint32_t> planes_through(PointId id) const {
     return planes_of_points.row(static_cast<std::size_t>(id));
   }
-  const Plane& exact(std::uint32_t plane) const { return planes.exact(points, plane); }
+  const Plane& exact(std::uint32_t plane) const {
+    return planes.exact(
+        [this](PointId id) -> const auto& { return homogeneous(id); }, plane);
+  }
   const Homogeneous<Integer>& homogeneous(PointId id) const {
     return homogeneous_points.get(static_cast<std::size_t>(id),
                                   [&] { return homogeneous_of(points.exact(id)); });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exactcsg/number/homogeneous.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -20,10 +22,69 @@ Integer scaled(const Rational& value, const Integer& denominator) {
   return value.get_num() * (denominator / value.get_den());
 }
 
-// (q - p) times p.w q.w > 0, or times p.w if that is q.w too
-Cofactors<Integer> difference(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q) {
-  if (p.w == q.w) return {q.x - p.x, q.y - p.y, q.z - p.z};
-  return {q.x * p.w - p.x * q.w, q.y * p.w - p.y * q.w, q.z * p.w - p.z * q.w};
+// What plane_through computes with: kept by each thread, since allocating took longer than
+// computing.
+struct PlaneScratch {
+  Integer common_w;
+  Integer factor;
+  std::array<Integer, 3> p;  // over common_w
+  std::array<Integer, 3> u;  // q - p, likewise
+  std::array<Integer, 3> v;  // r - p
+  std::array<Integer, 3> normal;
+  Integer offset;
+};
+
+std::array<const Integer*, 3> coordinates_of(const Homogeneous<Integer>& point) {
+  return {&point.x, &point.y, &point.z};
+}
+
+void set_common_w(PlaneScratch& s, const Homogeneous<Integer>& p, const Homogeneous<Integer>& q,
+                  const Homogeneous<Integer>& r) {
+  s.common_w = p.w;
+  for (const Homogeneous<Integer>* other : {&q, &r}) {
+    if (other->w != s.common_w) {
+      mpz_lcm(s.common_w.get_mpz_t(), s.common_w.get_mpz_t(), other->w.get_mpz_t());
+    }
+  }
+}
+
+void scale_to_common_w(PlaneScratch& s, const Homogeneous<Integer>& point,
+                       std::array<Integer, 3>& result) {
+  const auto from = coordinates_of(point);
+  if (point.w == s.common_w) {
+    for (std::size_t i = 0; i < 3; ++i) result[i] = *from[i];
+    return;
+  }
+  mpz_divexact(s.factor.get_mpz_t(), s.common_w.get_mpz_t(), point.w.get_mpz_t());
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_mul(result[i].get_mpz_t(), from[i]->get_mpz_t(), s.factor.get_mpz_t());
+  }
+}
+
+// Powers of two are most of what the differences of doubles have in common.
+void halve_while_even(std::array<Integer, 3>& vector) {
+  mp_bitcnt_t zeros = ~mp_bitcnt_t{0};
+  for (const Integer& c : vector) zeros = std::min(zeros, mpz_scan1(c.get_mpz_t(), 0));
+  if (zeros == 0 || zeros == ~mp_bitcnt_t{0}) return;
+  for (Integer& c : vector) mpz_tdiv_q_2exp(c.get_mpz_t(), c.get_mpz_t(), zeros);
+}
+
+void set_normal(PlaneScratch& s) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    mpz_mul(s.normal[i].get_mpz_t(), s.u[j].get_mpz_t(), s.v[k].get_mpz_t());
+    mpz_submul(s.normal[i].get_mpz_t(), s.u[k].get_mpz_t(), s.v[j].get_mpz_t());
+  }
+}
+
+void make_normal_coprime(PlaneScratch& s) {
+  mpz_gcd(s.factor.get_mpz_t(), s.normal[0].get_mpz_t(), s.normal[1].get_mpz_t());
+  if (s.factor != 1) {
+    mpz_gcd(s.factor.get_mpz_t(), s.factor.get_mpz_t(), s.normal[2].get_mpz_t());
+  }
+  if (s.factor == 1) return;
+  for (Integer& c : s.normal) mpz_divexact(c.get_mpz_t(), c.get_mpz_t(), s.factor.get_mpz_t());
 }
 
 }  // namespace
@@ -47,34 +108,37 @@ Point3 point_of(const Homogeneous<Integer>& p) {
 
 Plane plane_through(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q,
                     const Homogeneous<Integer>& r) {
-  const Cofactors<Integer> u = difference(p, q);
-  const Cofactors<Integer> v = difference(p, r);
-  Plane plane;
-  plane.a = u.y * v.z - u.z * v.y;
-  plane.b = u.z * v.x - u.x * v.z;
-  plane.c = u.x * v.y - u.y * v.x;
-  if (plane.a == 0 && plane.b == 0 && plane.c == 0) {
+  thread_local PlaneScratch s;
+  set_common_w(s, p, q, r);
+  scale_to_common_w(s, p, s.p);
+  scale_to_common_w(s, q, s.u);
+  scale_to_common_w(s, r, s.v);
+  for (std::size_t i = 0; i < 3; ++i) {
+    s.u[i] -= s.p[i];
+    s.v[i] -= s.p[i];
+  }
+  halve_while_even(s.u);
+  halve_while_even(s.v);
+  set_normal(s);
+  if (s.normal[0] == 0 && s.normal[1] == 0 && s.normal[2] == 0) {
     throw Error(ErrorId::DegenerateFacet,
                 {text_of(p) + ", " + text_of(q) + " and " + text_of(r) + " are collinear",
                  "three points that are not on one line"});
   }
-  // Small factors are taken out first: the numbers that follow are shorter for it.
-  const Integer common = gcd(gcd(plane.a, plane.b), plane.c);
-  if (common != 1) {
-    for (Integer* coefficient : {&plane.a, &plane.b, &plane.c}) {
-      mpz_divexact(coefficient->get_mpz_t(), coefficient->get_mpz_t(), common.get_mpz_t());
-    }
+  make_normal_coprime(s);
+  // n.(x - p/w) = 0; times w: (n w).x - n.p = 0. Since the components of n are coprime, the four
+  // coefficients' common factor is that of w and n.p.
+  s.offset = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_submul(s.offset.get_mpz_t(), s.normal[i].get_mpz_t(), s.p[i].get_mpz_t());
   }
-  // n.(x - p) = 0; times p.w: (n p.w).x - n.(p.x, p.y, p.z) = 0. Since a, b, c are coprime, the
-  // four coefficients' common factor is that of p.w and d.
-  plane.d = -(plane.a * p.x + plane.b * p.y + plane.c * p.z);
-  const Integer factor = gcd(p.w, plane.d);
-  const Integer scale = p.w / factor;
-  plane.a *= scale;
-  plane.b *= scale;
-  plane.c *= scale;
-  plane.d /= factor;
-  return plane;
+  mpz_gcd(s.factor.get_mpz_t(), s.common_w.get_mpz_t(), s.offset.get_mpz_t());
+  mpz_divexact(s.common_w.get_mpz_t(), s.common_w.get_mpz_t(), s.factor.get_mpz_t());
+  mpz_divexact(s.offset.get_mpz_t(), s.offset.get_mpz_t(), s.factor.get_mpz_t());
+  if (s.common_w != 1) {
+    for (Integer& c : s.normal) c *= s.common_w;
+  }
+  return {s.normal[0], s.normal[1], s.normal[2], s.offset};
 }
 
 PlaneOperand operand_of(const Plane& plane) {

@@ -100,10 +100,4 @@ PlaneTable::PlaneTable(AddedPlanes& added, const std::vector<std::uint32_t>& mem
   }
 }
 
-const Plane& PlaneTable::exact(const PointTable& points, std::uint32_t i) const {
-  const PlaneSource& source = sources_[i];
-  if (source.exact) return *source.exact;
-  return computed_.get(i, [&] { return plane_through(points, source.points); });
-}
-
 }  // namespace exactcsg

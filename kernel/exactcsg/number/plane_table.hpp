@@ -54,7 +54,15 @@ class PlaneTable {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(approximate_.size()); }
   const ApproximatePlane* approximate() const { return approximate_.data(); }
-  const Plane& exact(const PointTable& points, std::uint32_t i) const;
+  // `homogeneous(PointId)`: the coordinates of a point.
+  template <class HomogeneousOfPoint>
+  const Plane& exact(const HomogeneousOfPoint& homogeneous, std::uint32_t i) const {
+    const PlaneSource& source = sources_[i];
+    if (source.exact) return *source.exact;
+    const auto& [p, q, r] = source.points;
+    return computed_.get(
+        i, [&] { return plane_through(homogeneous(p), homogeneous(q), homogeneous(r)); });
+  }
 
  private:
   std::vector<ApproximatePlane> approximate_;

@@ -3,9 +3,12 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstring>
 #include <memory>
 #include <numeric>
 #include <string>
+#include <string_view>
 
 #include "exactcsg/solid/boundary.hpp"
 #include "exactcsg/support/error.hpp"
@@ -19,7 +22,7 @@ class Sha256 {
   Sha256() : context_(EVP_MD_CTX_new()) {
     check(context_ != nullptr && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
   }
-  void add(const std::string& text) {
+  void add(std::string_view text) {
     check(EVP_DigestUpdate(context_.get(), text.data(), text.size()) == 1);
   }
   std::string hexadecimal() {
@@ -45,6 +48,54 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, Free> context_;
 };
 
+// The text that is hashed, handed on in pieces: one buffer, no string a number.
+class HashedText {
+ public:
+  HashedText& operator<<(std::string_view text) {
+    reserve(text.size());
+    std::copy(text.begin(), text.end(), buffer_.begin() + static_cast<std::ptrdiff_t>(used_));
+    used_ += text.size();
+    return *this;
+  }
+  HashedText& operator<<(std::uint64_t number) {
+    constexpr std::size_t longest = 20;
+    reserve(longest);
+    used_ = static_cast<std::size_t>(
+        std::to_chars(buffer_.data() + used_, buffer_.data() + buffer_.size(), number).ptr -
+        buffer_.data());
+    return *this;
+  }
+  HashedText& operator<<(const Integer& number) {
+    reserve(mpz_sizeinbase(number.get_mpz_t(), 16) + 2);  // sign and terminating zero
+    char* const text = mpz_get_str(buffer_.data() + used_, 16, number.get_mpz_t());
+    used_ += std::strlen(text);
+    return *this;
+  }
+  HashedText& operator<<(const Rational& number) {
+    *this << number.get_num();
+    return number.get_den() == 1 ? *this : *this << "/" << number.get_den();
+  }
+  std::string digest() {
+    flush();
+    return hash_.hexadecimal();
+  }
+
+ private:
+  void reserve(std::size_t size) {
+    if (buffer_.size() - used_ >= size) return;
+    flush();
+    if (buffer_.size() < size) buffer_.resize(size);
+  }
+  void flush() {
+    hash_.add({buffer_.data(), used_});
+    used_ = 0;
+  }
+
+  Sha256 hash_;
+  std::vector<char> buffer_ = std::vector<char>(std::size_t{1} << 16U);
+  std::size_t used_ = 0;
+};
+
 // rank[i]: the place of item i in sorted order.
 template <class Item, class Less>
 std::vector<std::uint32_t> sorted_order(const std::vector<Item>& items, Less less) {
@@ -65,7 +116,7 @@ std::vector<std::uint32_t> inverse_of(const std::vector<std::uint32_t>& order) {
 
 // The planes that carry a face, sorted and distinct, and for every plane of the boundary its place.
 struct UsedPlanes {
-  std::vector<Plane> planes;
+  std::vector<const Plane*> planes;
   std::vector<std::uint32_t> place;
 };
 
@@ -76,8 +127,8 @@ UsedPlanes planes_of_faces(const Boundary& boundary) {
   for (const std::uint32_t i : sorted_order(
            boundary.planes, [](const Plane&p, const Plane&q) { return compare(p, q) < 0; })) {
     if (!used[i]) continue;
-    if (result.planes.empty() || !(result.planes.back() == boundary.planes[i])) {
-      result.planes.push_back(boundary.planes[i]);
+    if (result.planes.empty() || !(*result.planes.back() == boundary.planes[i])) {
+      result.planes.push_back(&boundary.planes[i]);
     }
     result.place[i] = static_cast<std::uint32_t>(result.planes.size() - 1);
   }
@@ -105,13 +156,17 @@ std::vector<std::array<std::uint32_t, 3>> sides_of_faces(const Boundary& boundar
 }  // namespace
 
 std::string digest(const Boundary& boundary) {
-  Sha256 hash;
-  hash.add("exactcsg.boundary/1\nvertices " + std::to_string(boundary.vertices.size()) + "\n");
+  HashedText text;
+  const auto section = [&text](std::string_view name, std::size_t count) {
+    text << name << " " << std::uint64_t{count} << "\n";
+  };
+  text << "exactcsg.boundary/2\n";
+  section("vertices", boundary.vertices.size());
   const std::vector<std::uint32_t> order = sorted_order(
       boundary.vertices, [](const Point3& p, const Point3& q) { return compare(p, q) < 0; });
   for (const std::uint32_t v : order) {
     const Point3& p = boundary.vertices[v];
-    hash.add(p.x.get_str() + " " + p.y.get_str() + " " + p.z.get_str() + "\n");
+    text << p.x << " " << p.y << " " << p.z << "\n";
   }
 
   const std::vector<std::uint32_t> rank = inverse_of(order);
@@ -121,24 +176,23 @@ std::string digest(const Boundary& boundary) {
     edges.push_back({std::min(rank[e.from], rank[e.to]), std::max(rank[e.from], rank[e.to])});
   }
   if (!std::is_sorted(edges.begin(), edges.end())) std::sort(edges.begin(), edges.end());
-  hash.add("edges " + std::to_string(edges.size()) + "\n");
+  section("edges", edges.size());
   for (const BoundaryEdge& e : edges) {
-    hash.add(std::to_string(e.from) + " " + std::to_string(e.to) + "\n");
+    text << std::uint64_t{e.from} << " " << std::uint64_t{e.to} << "\n";
   }
 
   const UsedPlanes planes = planes_of_faces(boundary);
-  hash.add("planes " + std::to_string(planes.planes.size()) + "\n");
-  for (const Plane& p : planes.planes) {
-    hash.add(p.a.get_str() + " " + p.b.get_str() + " " + p.c.get_str() + " " + p.d.get_str() +
-             "\n");
+  section("planes", planes.planes.size());
+  for (const Plane* p : planes.planes) {
+    text << p->a << " " << p->b << " " << p->c << " " << p->d << "\n";
   }
 
   const std::vector<std::array<std::uint32_t, 3>> sides = sides_of_faces(boundary, rank, planes);
-  hash.add("sides " + std::to_string(sides.size()) + "\n");
+  section("sides", sides.size());
   for (const auto& [plane, from, to] : sides) {
-    hash.add(std::to_string(plane) + " " + std::to_string(from) + " " + std::to_string(to) + "\n");
+    text << std::uint64_t{plane} << " " << std::uint64_t{from} << " " << std::uint64_t{to} << "\n";
   }
-  return hash.hexadecimal();
+  return text.digest();
 }
 
 }  // namespace exactcsg

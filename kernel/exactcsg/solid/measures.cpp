@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Enclosures of volume, area and centre of mass by integer sums over the faces' loops.
 //
-// A loop v_0 ... v_n of a face has the doubled vector area A = sum v_i x v_(i+1), whatever the
-// origin, and adds v_0 . A to six times the volume (divergence theorem, cones from the origin).
+// A loop v_0 ... v_n of a face is the fan of the triangles v_0, v_i, v_(i+1), signed: their cross
+// products add up to the doubled vector area, and v_0 . (cross product) to six times the volume
+// (divergence theorem, cones from the origin).
 #include "exactcsg/solid/measures.hpp"
 
 #include <algorithm>
@@ -43,68 +44,64 @@ class SurfaceSummation {
   }
 
  private:
+  using Coordinates = std::array<Integer, 3>;
+
   void add_face(const BoundaryFace& face) {
     for (Integer& a : face_area_) a = 0;
-    std::uint64_t sides = 0;
     for (const auto& loop : face.loops) {
       add_loop(loop);
-      sides += loop.size();
+      sides_ += loop.size();
     }
     square_ = 0;
     for (const Integer& a : face_area_) {
       mpz_addmul(square_.get_mpz_t(), a.get_mpz_t(), a.get_mpz_t());
     }
     mpz_sqrtrem(root_.get_mpz_t(), rest_.get_mpz_t(), square_.get_mpz_t());
-    if (sgn(rest_) != 0) {
-      square_ <<= 2 * area_shift_;
-      mpz_sqrt(root_.get_mpz_t(), square_.get_mpz_t());
-      ++cut_roots_;
-    } else {
+    if (sgn(rest_) == 0) {
       root_ <<= area_shift_;
-    }
-    sums_.two_areas.value += root_;
-    sides_ += sides;
-  }
-
-  void add_loop(const std::vector<std::uint32_t>& loop) {
-    for (Integer& a : loop_area_) a = 0;
-    const auto& first = vertices_.coordinates[loop.front()];
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const auto& p = vertices_.coordinates[loop[k]];
-      const auto& q = vertices_.coordinates[loop[(k + 1) % loop.size()]];
-      if (wanted_ == Wanted::Everything) {
-        for (Integer& c : cross_) c = 0;
-        add_cross(cross_, p, q);
-        for (std::size_t i = 0; i < 3; ++i) loop_area_[i] += cross_[i];
-        add_moments(first, p, q);
-      } else {
-        add_cross(loop_area_, p, q);
+    } else {
+      ++cut_roots_;
+      if (area_shift_ != 0) {
+        square_ <<= 2 * area_shift_;
+        mpz_sqrt(root_.get_mpz_t(), square_.get_mpz_t());
       }
     }
-    for (std::size_t i = 0; i < 3; ++i) {
-      mpz_addmul(sums_.six_volumes.value.get_mpz_t(), first[i].get_mpz_t(),
-                 loop_area_[i].get_mpz_t());
-      face_area_[i] += loop_area_[i];
+    sums_.two_areas.value += root_;
+  }
+
+  // The fan of triangles first, p, q.
+  void add_loop(const std::vector<std::uint32_t>& loop) {
+    const Coordinates& first = vertices_.coordinates[loop.front()];
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+      const Coordinates& p = vertices_.coordinates[loop[k]];
+      const Coordinates& q = vertices_.coordinates[loop[k + 1]];
+      set_cross(first, p, q);
+      determinant_ = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        face_area_[i] += cross_[i];
+        mpz_addmul(determinant_.get_mpz_t(), first[i].get_mpz_t(), cross_[i].get_mpz_t());
+      }
+      sums_.six_volumes.value += determinant_;
+      if (wanted_ == Wanted::Everything) add_moments(first, p, q);
     }
   }
 
-  static void add_cross(std::array<Integer, 3>& sum, const std::array<Integer, 3>& p,
-                        const std::array<Integer, 3>& q) {
+  // (p - first) x (q - first)
+  void set_cross(const Coordinates& first, const Coordinates& p, const Coordinates& q) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_sub(u_[i].get_mpz_t(), p[i].get_mpz_t(), first[i].get_mpz_t());
+      mpz_sub(v_[i].get_mpz_t(), q[i].get_mpz_t(), first[i].get_mpz_t());
+    }
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
-      mpz_addmul(sum[i].get_mpz_t(), p[j].get_mpz_t(), q[k].get_mpz_t());
-      mpz_submul(sum[i].get_mpz_t(), p[k].get_mpz_t(), q[j].get_mpz_t());
+      mpz_mul(cross_[i].get_mpz_t(), u_[j].get_mpz_t(), v_[k].get_mpz_t());
+      mpz_submul(cross_[i].get_mpz_t(), u_[k].get_mpz_t(), v_[j].get_mpz_t());
     }
   }
 
   // The tetrahedron origin, first, p, q has the moment det / 24 (first + p + q).
-  void add_moments(const std::array<Integer, 3>& first, const std::array<Integer, 3>& p,
-                   const std::array<Integer, 3>& q) {
-    determinant_ = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      mpz_addmul(determinant_.get_mpz_t(), first[i].get_mpz_t(), cross_[i].get_mpz_t());
-    }
+  void add_moments(const Coordinates& first, const Coordinates& p, const Coordinates& q) {
     if (sgn(determinant_) == 0) return;
     for (std::size_t i = 0; i < 3; ++i) {
       mpz_add(root_.get_mpz_t(), first[i].get_mpz_t(), p[i].get_mpz_t());
@@ -113,9 +110,10 @@ class SurfaceSummation {
     }
   }
 
-  // With every coordinate off by at most 1 and both the true and the cut ones in [0, M + 1]:
-  // a product of two is off by at most (M+1)^2 - M^2, of three by (M+1)^3 - M^3; a component of a
-  // cross product has two products, a determinant six, its moment six of four factors thrice.
+  // Every coordinate and every difference of two is off by at most 1, and both the true and the cut
+  // ones are at most M + 1 in magnitude: a product of two is off by at most (M+1)^2 - M^2, of three
+  // by (M+1)^3 - M^3. A component of a cross product has two products, a determinant six, its
+  // moment six of four factors thrice; there are fewer triangles than sides.
   void set_errors() {
     sums_.two_areas.error = cut_roots_;
     if (vertices_.exact) return;
@@ -137,9 +135,10 @@ class SurfaceSummation {
   SurfaceSums sums_;
   std::uint64_t sides_ = 0;
   unsigned long cut_roots_ = 0;
-  std::array<Integer, 3> face_area_;
-  std::array<Integer, 3> loop_area_;
-  std::array<Integer, 3> cross_;
+  Coordinates face_area_;
+  Coordinates u_;
+  Coordinates v_;
+  Coordinates cross_;
   Integer determinant_;
   Integer square_;
   Integer root_;
