@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace exactcsg::cli_test {
 
@@ -42,13 +43,19 @@ std::string model(const std::string& name) {
   return EXACTCSG_SOURCE_DIR "/data/openscad/" + name + ".csg";
 }
 
+std::string program() { return EXACTCSG_BINARY_DIR "/exactcsg"; }
+
 Finished run_command(const std::vector<std::string>& arguments, std::string_view input) {
+  std::vector<std::string> words{program()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run_program(std::move(words), input);
+}
+
+Finished run_program(std::vector<std::string> words, std::string_view input) {
   const Folder folder;
   const std::string in = folder.write("stdin", input);
   const std::string out = folder.write("stdout", "");
   const std::string err = folder.write("stderr", "");
-  std::vector<std::string> words{EXACTCSG_BINARY_DIR "/exactcsg"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

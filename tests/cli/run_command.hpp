@@ -16,8 +16,12 @@ struct Finished {
   std::string err;
 };
 
+// The command that was built.
+std::string program();
 // Arguments without the program's name.
 Finished run_command(const std::vector<std::string>& arguments, std::string_view input = {});
+// Any program, by its path.
+Finished run_program(std::vector<std::string> words, std::string_view input = {});
 
 // A folder of the test's own, removed at its end.
 class Folder {
