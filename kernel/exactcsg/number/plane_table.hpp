@@ -59,9 +59,10 @@ class PlaneTable {
   const Plane& exact(const HomogeneousOfPoint& homogeneous, std::uint32_t i) const {
     const PlaneSource& source = sources_[i];
     if (source.exact) return *source.exact;
-    const auto& [p, q, r] = source.points;
-    return computed_.get(
-        i, [&] { return plane_through(homogeneous(p), homogeneous(q), homogeneous(r)); });
+    const auto& points = source.points;
+    return computed_.get(i, [&] {
+      return plane_through(homogeneous(points[0]), homogeneous(points[1]), homogeneous(points[2]));
+    });
   }
 
  private:

@@ -38,6 +38,7 @@ class StackInteger {
     std::copy_n(other.limbs_, size_, limbs_);
   }
   StackInteger& operator=(const StackInteger& other) {
+    if (this == &other) return *this;
     size_ = other.size_;
     negative_ = other.negative_;
     std::copy_n(other.limbs_, size_, limbs_);
