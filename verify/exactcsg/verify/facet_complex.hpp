@@ -30,7 +30,9 @@ struct OracleFacet {
 struct FacetComplex {
   std::vector<Point3> vertices;
   std::vector<OracleFacet> facets;
-  bool membranes = false;  // the oracle had lower-dimensional parts, left out here
+  // Facets of the oracle without thickness, with nothing inside on either side: left out of
+  // `facets`.
+  std::vector<OracleFacet> membranes;
 };
 
 using ExactEdge = std::array<Point3, 2>;  // [0] < [1]

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -13,6 +14,7 @@
 #include "exactcsg/support/error.hpp"
 #include "exactcsg/verify/exact_sums.hpp"
 #include "exactcsg/verify/facet_complex.hpp"
+#include "exactcsg/verify/membranes.hpp"
 #include "exactcsg/verify/welded_mesh.hpp"
 
 namespace exactcsg::verify {
@@ -107,26 +109,28 @@ struct Ours {
   const Boundary& boundary;
   std::vector<PlainVector> positions;
   std::vector<std::vector<std::uint32_t>> edges_at;  // of each vertex
+  std::vector<std::vector<std::uint32_t>> faces_at;  // of each edge
   std::set<std::uint32_t> crowded_edges;             // edges with more than two faces
 
-  explicit Ours(const Boundary& b) : boundary(b), edges_at(b.vertices.size()) {
+  explicit Ours(const Boundary& b)
+      : boundary(b), edges_at(b.vertices.size()), faces_at(b.edges.size()) {
     for (const Point3& p : b.vertices) positions.push_back(approximate(p));
     std::map<MeshEdge, std::uint32_t> index;
-    std::vector<std::uint32_t> uses(b.edges.size(), 0);
     for (std::size_t e = 0; e < b.edges.size(); ++e) {
       const auto id = static_cast<std::uint32_t>(e);
       edges_at[b.edges[e].from].push_back(id);
       edges_at[b.edges[e].to].push_back(id);
       index[{b.edges[e].from, b.edges[e].to}] = id;
     }
-    for (const BoundaryFace& face : b.faces) {
-      for (const auto& loop : face.loops) {
+    for (std::size_t f = 0; f < b.faces.size(); ++f) {
+      for (const auto& loop : b.faces[f].loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
           const auto [u, v] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
           const auto found = index.find({u, v});
-          if (found != index.end() && ++uses[found->second] > 2) {
-            crowded_edges.insert(found->second);
-          }
+          if (found == index.end()) continue;
+          auto& faces = faces_at[found->second];
+          faces.push_back(static_cast<std::uint32_t>(f));
+          if (faces.size() > 2) crowded_edges.insert(found->second);
         }
       }
     }
@@ -172,13 +176,6 @@ struct Matching {
   double largest_displacement = 0;
 };
 
-bool within_rounding(const Point3& exact, const Point3& rounded,
-                     const std::array<double, 3>& rounding) {
-  return abs(exact.x - rounded.x) <= rational_of(rounding[0]) &&
-         abs(exact.y - rounded.y) <= rational_of(rounding[1]) &&
-         abs(exact.z - rounded.z) <= rational_of(rounding[2]);
-}
-
 Matching match_vertices(const Ours& ours, const WeldedMesh& mesh) {
   Matching matching;
   matching.ours_of.resize(mesh.points.size());
@@ -188,13 +185,13 @@ Matching match_vertices(const Ours& ours, const WeldedMesh& mesh) {
     matching.largest_displacement = std::max(matching.largest_displacement, t);
   }
   const PointGrid grid(ours.positions, 4 * matching.largest_displacement);
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
     const double reach = 2 * mesh.displacement[v];
     grid.near(mesh.positions[v], reach, [&](std::uint32_t i) {
       if (length(ours.positions[i] - mesh.positions[v]) > reach) return;
-      if (!within_rounding(ours.boundary.vertices[i], mesh.points[v], mesh.rounding[v])) return;
+      if (!may_stand_for(mesh, v, ours.boundary.vertices[i])) return;
       matching.ours_of[v].push_back(i);
-      matching.theirs_of[i].push_back(static_cast<std::uint32_t>(v));
+      matching.theirs_of[i].push_back(v);
     });
     for (const std::uint32_t i : matching.ours_of[v]) {
       matching.edges_of[v].insert(matching.edges_of[v].end(), ours.edges_at[i].begin(),
@@ -250,6 +247,12 @@ bool along_segment(const PlainVector& a, const PlainVector& b, const PlainVector
   return nearest_on_segment(a, b, p).distance <= reach;
 }
 
+// A vertex inside an edge stands for one point of each edge that it lies on.
+bool stands_for_several(const Matching& matching, std::uint32_t v) {
+  const std::size_t vertices = matching.ours_of[v].size();
+  return vertices > 1 || (vertices == 0 && matching.edges_of[v].size() > 1);
+}
+
 Check check_manifold(const std::string& label, const Ours& ours, const WeldedMesh& mesh,
                      const Matching& matching) {
   Check check = named(label, "manifold");
@@ -264,7 +267,7 @@ Check check_manifold(const std::string& label, const Ours& ours, const WeldedMes
              along_segment(ours.from(e), ours.to(e), mesh.positions[edge[1]], reach);
     };
     const bool welded =
-        matching.ours_of[edge[0]].size() > 1 || matching.ours_of[edge[1]].size() > 1;
+        stands_for_several(matching, edge[0]) || stands_for_several(matching, edge[1]);
     if (welded || std::any_of(ours.crowded_edges.begin(), ours.crowded_edges.end(), meant)) {
       ++allowed;
       continue;
@@ -288,36 +291,6 @@ struct Measures {
   double area_bound = 0;  // of its difference, see the header
   double volume_bound = 0;
 };
-
-PlainVector area_vector(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
-  const PlainVector& origin = mesh.positions[facet[0]];
-  PlainVector sum{0, 0, 0};
-  for (std::size_t i = 1; i + 1 < facet.size(); ++i) {
-    sum = sum + cross(mesh.positions[facet[i]] - origin, mesh.positions[facet[i + 1]] - origin);
-  }
-  return 0.5 * sum;
-}
-
-double perimeter(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
-  double sum = 0;
-  for (std::size_t i = 0; i < facet.size(); ++i) {
-    sum += length(mesh.positions[facet[(i + 1) % facet.size()]] - mesh.positions[facet[i]]);
-  }
-  return sum;
-}
-
-double largest_displacement(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
-  double t = 0;
-  for (const std::uint32_t v : facet) t = std::max(t, mesh.displacement[v]);
-  return t;
-}
-
-// What vertices displaced by at most t can add to or take from the area vector of a polygon: each
-// displacement d_i contributes d_i x (p_(i+1) - p_(i-1)) / 2 and products of two displacements.
-double area_slack(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
-  const double t = largest_displacement(mesh, facet);
-  return t * perimeter(mesh, facet) + static_cast<double>(facet.size()) * t * t;
-}
 
 Measures measure(const WeldedMesh& mesh) {
   Measures result;
@@ -385,6 +358,33 @@ void list_in_turn(Check& check, const std::vector<Mismatch>& missing,
   }
 }
 
+// Has the face a corner besides the ends of the edge that rounding may have joined to one of them?
+bool has_corner_near_ends(const Ours& ours, std::uint32_t face, std::uint32_t edge, double reach) {
+  const BoundaryEdge& ends = ours.boundary.edges[edge];
+  for (const auto& loop : ours.boundary.faces[face].loops) {
+    for (const std::uint32_t v : loop) {
+      if (v == ends.from || v == ends.to) continue;
+      const PlainVector& p = ours.positions[v];
+      if (length(p - ours.from(edge)) <= reach || length(p - ours.to(edge)) <= reach) return true;
+    }
+  }
+  return false;
+}
+
+// May rounding have left the edge without facets? A facet vanishes when two of its corners become
+// one: both ends of the edge, or an end and a third corner of its face, on every side of the edge.
+bool may_have_vanished(const Ours& ours, const Matching& matching, std::uint32_t edge,
+                       double reach) {
+  if (length(ours.to(edge) - ours.from(edge)) <= reach) {
+    const BoundaryEdge& ends = ours.boundary.edges[edge];
+    return matching.theirs_of[ends.from].empty() || matching.theirs_of[ends.to].empty();
+  }
+  const auto& faces = ours.faces_at[edge];
+  return std::all_of(faces.begin(), faces.end(), [&](std::uint32_t face) {
+    return has_corner_near_ends(ours, face, edge, reach);
+  });
+}
+
 Check check_vertices(const std::string& label, const Ours& ours, const WeldedMesh& mesh,
                      Matching& matching) {
   Check check = named(label, "vertices");
@@ -394,6 +394,11 @@ Check check_vertices(const std::string& label, const Ours& ours, const WeldedMes
   std::vector<Mismatch> missing;
   for (std::size_t i = 0; i < ours.positions.size(); ++i) {
     if (!matching.theirs_of[i].empty()) continue;
+    const auto& edges = ours.edges_at[i];
+    const bool vanished = std::all_of(edges.begin(), edges.end(), [&](std::uint32_t e) {
+      return may_have_vanished(ours, matching, e, 2 * matching.largest_displacement);
+    });
+    if (vanished) continue;
     missing.push_back(
         vertex_mismatch("vertex of the model that the file does not have", ours.positions[i]));
   }
@@ -426,6 +431,16 @@ Check check_vertices(const std::string& label, const Ours& ours, const WeldedMes
   return check;
 }
 
+// Do the boxes around the segments ab and pq come within `reach` of each other?
+bool boxes_meet(const PlainVector& a, const PlainVector& b, const PlainVector& p,
+                const PlainVector& q, double reach) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (std::min(p[k], q[k]) > std::max(a[k], b[k]) + reach) return false;
+    if (std::max(p[k], q[k]) < std::min(a[k], b[k]) - reach) return false;
+  }
+  return true;
+}
+
 // Can a path of edges be walked from one of `starts` to one of `ends`, all within `reach` of the
 // segment?
 template <class Neighbours, class Position>
@@ -446,25 +461,93 @@ bool walk_along(const PlainVector& a, const PlainVector& b, double reach,
   return false;
 }
 
-// True if no displacement within the rounding can make the facets at the edge coplanar.
-bool certainly_sharp(const WeldedMesh& mesh, const EdgeUse& use) {
-  std::vector<std::uint32_t> facets(use.forward);
-  facets.insert(facets.end(), use.backward.begin(), use.backward.end());
-  const auto uncertainty = [&](const PlainVector& area, std::uint32_t f) {
-    const double ratio = area_slack(mesh, mesh.facets[f]) / length(area);
-    return ratio < 0.5 ? std::asin(ratio) : 4.0;
-  };
-  for (std::size_t i = 0; i < facets.size(); ++i) {
-    const PlainVector a = area_vector(mesh, mesh.facets[facets[i]]);
-    if (!(length(a) > 0)) continue;
-    for (std::size_t j = i + 1; j < facets.size(); ++j) {
-      const PlainVector b = area_vector(mesh, mesh.facets[facets[j]]);
-      if (!(length(b) > 0)) continue;
-      const double angle = std::atan2(length(cross(a, b)), dot(a, b));
-      if (angle > uncertainty(a, facets[i]) + uncertainty(b, facets[j]) + 1e-12) return true;
+struct FacetDirection {
+  PlainVector area_vector;
+  double uncertainty = 0;  // of its angle; rounding may have turned a sliver anywhere
+};
+
+FacetDirection direction_of(const WeldedMesh& mesh, std::uint32_t facet) {
+  constexpr double anywhere = 4;  // more than pi
+  const PlainVector area = area_vector(mesh, mesh.facets[facet]);
+  const double size = length(area);
+  const double ratio = size > 0 ? area_slack(mesh, mesh.facets[facet]) / size : 1;
+  return {area, ratio < 0.5 ? std::asin(ratio) : anywhere};
+}
+
+bool may_be_coplanar(const FacetDirection& f, const FacetDirection& g) {
+  const double angle =
+      std::atan2(length(cross(f.area_vector, g.area_vector)), dot(f.area_vector, g.area_vector));
+  return angle <= f.uncertainty + g.uncertainty + 1e-12;
+}
+
+// Gives facet f on the one side of an edge a partner on the other, moving earlier pairs if it must.
+bool find_partner(std::size_t f, const std::vector<FacetDirection>& left,
+                  const std::vector<FacetDirection>& right,
+                  std::vector<std::optional<std::size_t>>& partner_of, std::vector<bool>& tried) {
+  for (std::size_t g = 0; g < right.size(); ++g) {
+    if (tried[g] || !may_be_coplanar(left[f], right[g])) continue;
+    tried[g] = true;
+    if (!partner_of[g] || find_partner(*partner_of[g], left, right, partner_of, tried)) {
+      partner_of[g] = f;
+      return true;
     }
   }
   return false;
+}
+
+// True if the edge cannot stand for diagonals of faces alone: each diagonal brings two coplanar
+// facets that turn the same way, and rounding may have laid several diagonals into one edge.
+bool certainly_sharp(const WeldedMesh& mesh, const EdgeUse& use) {
+  if (use.forward.size() != use.backward.size()) return true;
+  constexpr std::size_t too_many = 64;  // no diagonals meet like this; keep the matching cheap
+  if (use.forward.size() > too_many) return true;
+  std::vector<FacetDirection> left;
+  std::vector<FacetDirection> right;
+  for (const std::uint32_t f : use.forward) left.push_back(direction_of(mesh, f));
+  for (const std::uint32_t f : use.backward) right.push_back(direction_of(mesh, f));
+  std::vector<std::optional<std::size_t>> partner_of(right.size());
+  for (std::size_t f = 0; f < left.size(); ++f) {
+    std::vector<bool> tried(right.size(), false);
+    if (!find_partner(f, left, right, partner_of, tried)) return true;
+  }
+  return false;
+}
+
+// How far along the segment from a to b, beginning at the parameter `start`, does the edge of the
+// model stay within `reach`? The distance to a segment is convex along a line: it leaves but once.
+double follows_until(const Ours& ours, std::uint32_t edge, const PlainVector& a,
+                     const PlainVector& b, double start, double reach) {
+  const auto is_near = [&](double s) {
+    return along_segment(ours.from(edge), ours.to(edge), a + s * (b - a), reach);
+  };
+  if (!is_near(start)) return start;
+  if (is_near(1)) return 1;
+  double near = start;
+  double far = 1;
+  constexpr int bits_of_a_double = 53;
+  for (int i = 0; i < bits_of_a_double; ++i) {
+    const double middle = 0.5 * (near + far);
+    (is_near(middle) ? near : far) = middle;
+  }
+  return near;
+}
+
+// Is every point of the segment within `reach` of some edge of the model?
+bool covered_by_edges(const Ours& ours, const PlainVector& a, const PlainVector& b, double reach) {
+  std::vector<std::uint32_t> candidates;
+  for (std::uint32_t e = 0; e < ours.boundary.edges.size(); ++e) {
+    if (boxes_meet(a, b, ours.from(e), ours.to(e), reach)) candidates.push_back(e);
+  }
+  double covered = 0;
+  while (covered < 1) {
+    double next = covered;
+    for (const std::uint32_t e : candidates) {
+      next = std::max(next, follows_until(ours, e, a, b, covered, reach));
+    }
+    if (!(next > covered)) return false;
+    covered = next;
+  }
+  return true;
 }
 
 bool shares_edge(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
@@ -491,11 +574,13 @@ Check check_edges(const std::string& label, const Ours& ours, const WeldedMesh& 
           for (const std::uint32_t w : neighbours[v]) visit(w);
         },
         [&](std::uint32_t v) { return mesh.positions[v]; });
-    if (!found) {
+    if (!found && !may_have_vanished(ours, matching, e, reach)) {
       missing.push_back(
           edge_mismatch("edge of the model that the file does not have", ours.from(e), ours.to(e)));
     }
   }
+  constexpr std::size_t enough = 2000;  // beyond, the file is another solid: do not search for each
+  std::size_t searched = 0;
   std::vector<Mismatch> stray;
   std::size_t sharp = 0;
   for (const auto& [edge, use] : mesh.edges) {
@@ -504,18 +589,9 @@ Check check_edges(const std::string& label, const Ours& ours, const WeldedMesh& 
     const PlainVector& a = mesh.positions[edge[0]];
     const PlainVector& b = mesh.positions[edge[1]];
     if (shares_edge(matching.edges_of[edge[0]], matching.edges_of[edge[1]])) continue;
-    const bool found = walk_along(
-        a, b, reach, matching.ours_of[edge[0]], matching.ours_of[edge[1]],
-        [&](std::uint32_t v, auto visit) {
-          for (const std::uint32_t e : ours.edges_at[v]) {
-            visit(ours.boundary.edges[e].from == v ? ours.boundary.edges[e].to
-                                                   : ours.boundary.edges[e].from);
-          }
-        },
-        [&](std::uint32_t v) { return ours.positions[v]; });
-    if (!found) {
-      stray.push_back(edge_mismatch("sharp edge of the file that the model does not have", a, b));
-    }
+    const bool search = ++searched <= enough || (missing.empty() && stray.empty());
+    if (search && covered_by_edges(ours, a, b, reach)) continue;
+    stray.push_back(edge_mismatch("sharp edge of the file that the model does not have", a, b));
   }
   check.ours = std::to_string(ours.boundary.edges.size());
   check.theirs = fmt::format("{} sharp", sharp);
@@ -532,13 +608,21 @@ Check check_edges(const std::string& label, const Ours& ours, const WeldedMesh& 
 std::vector<Check> compare_with_soup(const Boundary& boundary, const io::PolygonSoup& soup,
                                      const MeshComparisonOptions& options) {
   const std::string label = options.label.empty() ? "against" : options.label;
-  const WeldedMesh mesh = weld(soup, nearest_double(options.model_rounding));
+  WeldedMesh mesh = weld(soup, nearest_double(options.model_rounding));
+  std::optional<Check> membranes;
+  if (options.membranes != nullptr && !options.membranes->membranes.empty()) {
+    membranes = take_out_membranes(*options.membranes, mesh, label);
+  }
   const Ours ours(boundary);
   Matching matching = match_vertices(ours, mesh);
   const Measures measures = measure(mesh);
   const FileVolume volume = file_volume(mesh);
 
+  // First, because it finds the edges that vertices of the file lie on.
+  Check vertices = check_vertices(label, ours, mesh, matching);
+
   std::vector<Check> checks;
+  if (membranes) checks.push_back(std::move(*membranes));
   checks.push_back(check_closed(label, mesh));
   checks.push_back(check_manifold(label, ours, mesh, matching));
   checks.push_back(check_oriented(label, mesh, volume.exact < 0));
@@ -546,7 +630,7 @@ std::vector<Check> compare_with_soup(const Boundary& boundary, const io::Polygon
                                   volume.exact, measures.volume_bound));
   checks.push_back(compare_figure(label, "area", enclose_area(boundary, working_bits),
                                   rational_of(measures.area), measures.area_bound));
-  checks.push_back(check_vertices(label, ours, mesh, matching));
+  checks.push_back(std::move(vertices));
   checks.push_back(check_edges(label, ours, mesh, matching));
   for (Check& check : checks) check.oracle = options.oracle;
   return checks;

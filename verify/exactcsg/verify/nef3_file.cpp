@@ -149,12 +149,7 @@ FacetComplex parse_nef3(const std::string& text) {
     next[i] = lines.index(record, 6, shalfedges);
   }
 
-  for (const HalfFacet& facet : half_facets) {
-    const bool in_here = inside[facet.volume];
-    const bool in_there = inside[half_facets[facet.twin].volume];
-    if (facet.mark && !in_here && !in_there) complex.membranes = true;
-    // The plane of a half-facet is positive towards its volume: the outer one points outward.
-    if (in_here || !in_there) continue;
+  const auto facet_of = [&](const HalfFacet& facet) {
     OracleFacet result;
     const auto& p = facet.plane;
     result.plane = make_plane(Rational(p[0]), Rational(p[1]), Rational(p[2]), Rational(p[3]));
@@ -168,7 +163,18 @@ FacetComplex parse_nef3(const std::string& text) {
       } while (at != first);
       result.cycles.push_back(std::move(cycle));
     }
-    complex.facets.push_back(std::move(result));
+    return result;
+  };
+  for (std::size_t i = 0; i < facets; ++i) {
+    const HalfFacet& facet = half_facets[i];
+    const bool in_here = inside[facet.volume];
+    const bool in_there = inside[half_facets[facet.twin].volume];
+    const bool first_of_two = i < facet.twin;
+    if (facet.mark && !in_here && !in_there && first_of_two) {
+      complex.membranes.push_back(facet_of(facet));
+    }
+    // The plane of a half-facet is positive towards its volume: the outer one points outward.
+    if (!in_here && in_there) complex.facets.push_back(facet_of(facet));
   }
   return complex;
 }

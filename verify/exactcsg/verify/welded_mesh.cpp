@@ -100,19 +100,6 @@ std::vector<std::uint32_t> without_repetitions(const std::vector<std::uint32_t>&
   return result;
 }
 
-void count_edges(WeldedMesh& mesh) {
-  mesh.edges.clear();
-  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
-    const auto& facet = mesh.facets[f];
-    for (std::size_t i = 0; i < facet.size(); ++i) {
-      const std::uint32_t a = facet[i];
-      const std::uint32_t b = facet[(i + 1) % facet.size()];
-      EdgeUse& use = mesh.edges[{std::min(a, b), std::max(a, b)}];
-      (a < b ? use.forward : use.backward).push_back(static_cast<std::uint32_t>(f));
-    }
-  }
-}
-
 // Vertices of unbalanced edges that lie within rounding on another unbalanced edge are put into it.
 bool close_junctions(WeldedMesh& mesh) {
   std::vector<MeshEdge> open;
@@ -162,7 +149,28 @@ bool close_junctions(WeldedMesh& mesh) {
   return true;
 }
 
+double perimeter(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
+  double sum = 0;
+  for (std::size_t i = 0; i < facet.size(); ++i) {
+    sum += length(mesh.positions[facet[(i + 1) % facet.size()]] - mesh.positions[facet[i]]);
+  }
+  return sum;
+}
+
 }  // namespace
+
+void count_edges(WeldedMesh& mesh) {
+  mesh.edges.clear();
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    const auto& facet = mesh.facets[f];
+    for (std::size_t i = 0; i < facet.size(); ++i) {
+      const std::uint32_t a = facet[i];
+      const std::uint32_t b = facet[(i + 1) % facet.size()];
+      EdgeUse& use = mesh.edges[{std::min(a, b), std::max(a, b)}];
+      (a < b ? use.forward : use.backward).push_back(static_cast<std::uint32_t>(f));
+    }
+  }
+}
 
 std::vector<std::array<double, 3>> format_rounding(const io::PolygonSoup& soup) {
   const FormatPrecision precision = precision_of(soup);
@@ -182,6 +190,34 @@ std::vector<std::array<double, 3>> format_rounding(const io::PolygonSoup& soup) 
                       rounding_at(nearest_double(p.z), precision) + noise});
   }
   return result;
+}
+
+PlainVector area_vector(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
+  const PlainVector& origin = mesh.positions[facet[0]];
+  PlainVector sum{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < facet.size(); ++i) {
+    sum = sum + cross(mesh.positions[facet[i]] - origin, mesh.positions[facet[i + 1]] - origin);
+  }
+  return 0.5 * sum;
+}
+
+double largest_displacement(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
+  double t = 0;
+  for (const std::uint32_t v : facet) t = std::max(t, mesh.displacement[v]);
+  return t;
+}
+
+double area_slack(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet) {
+  const double t = largest_displacement(mesh, facet);
+  return t * perimeter(mesh, facet) + static_cast<double>(facet.size()) * t * t;
+}
+
+bool may_stand_for(const WeldedMesh& mesh, std::uint32_t v, const Point3& exact) {
+  const Point3& p = mesh.points[v];
+  const auto& rounding = mesh.rounding[v];
+  return abs(exact.x - p.x) <= rational_of(rounding[0]) &&
+         abs(exact.y - p.y) <= rational_of(rounding[1]) &&
+         abs(exact.z - p.z) <= rational_of(rounding[2]);
 }
 
 WeldedMesh weld(const io::PolygonSoup& soup, double model_rounding) {

@@ -39,4 +39,20 @@ std::vector<std::array<double, 3>> format_rounding(const io::PolygonSoup& soup);
 
 WeldedMesh weld(const io::PolygonSoup& soup, double model_rounding);
 
+// Counts mesh.edges anew from mesh.facets.
+void count_edges(WeldedMesh& mesh);
+
+// Half the sum of the cross products of a facet's sides: normal to it, as long as its area.
+PlainVector area_vector(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet);
+
+// The largest displacement of a corner.
+double largest_displacement(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet);
+
+// What vertices displaced by at most t can add to or take from the area vector of a polygon: each
+// displacement d_i contributes d_i x (p_(i+1) - p_(i-1)) / 2 and products of two displacements.
+double area_slack(const WeldedMesh& mesh, const std::vector<std::uint32_t>& facet);
+
+// Can the format have rounded this point to vertex v?
+bool may_stand_for(const WeldedMesh& mesh, std::uint32_t v, const Point3& exact);
+
 }  // namespace exactcsg::verify
