@@ -39,26 +39,31 @@ struct Outcome {
   std::string internal_error;  // of an exception that is not ours
 };
 
+Outcome out_of_memory(const Context& context) {
+  const std::size_t limit = context.common().memory_limit;
+  return {{},
+          Error(ErrorId::OutOfMemory,
+                {limit == 0 ? std::string("no memory left")
+                            : fmt::format("more than {} MiB needed", limit >> 20U),
+                 "a model that fits, or a larger --memory-limit"}),
+          {}};
+}
+
+// Thrown where a thread cannot be started for want of memory.
+bool says_out_of_memory(const std::system_error& error) {
+  return error.code() == std::errc::resource_unavailable_try_again ||
+         error.code() == std::errc::not_enough_memory;
+}
+
 Outcome run(const Command& command, Context& context) {
-  const auto out_of_memory = [&] {
-    return Error(ErrorId::OutOfMemory, {context.common().memory_limit == 0
-                                            ? std::string("no memory left")
-                                            : fmt::format("more than {} MiB needed",
-                                                          context.common().memory_limit >> 20U),
-                                        "a model that fits, or a larger --memory-limit"});
-  };
   try {
     return {command.work(context), {}, {}};
   } catch (const Error& error) {
     return {{}, error, {}};
   } catch (const std::bad_alloc&) {
-    return {{}, out_of_memory(), {}};
+    return out_of_memory(context);
   } catch (const std::system_error& error) {
-    // A thread that cannot be started for want of memory.
-    if (error.code() == std::errc::resource_unavailable_try_again ||
-        error.code() == std::errc::not_enough_memory) {
-      return {{}, out_of_memory(), {}};
-    }
+    if (says_out_of_memory(error)) return out_of_memory(context);
     return {{}, {}, error.what()};
   } catch (const std::exception& error) {
     return {{}, {}, error.what()};
@@ -115,7 +120,13 @@ int supervise(const Command& command, Context& context) {
 
   std::promise<Outcome> promise;
   auto future = promise.get_future();
-  std::thread worker([&] { promise.set_value(run(command, context)); });
+  std::thread worker;
+  try {
+    worker = std::thread([&] { promise.set_value(run(command, context)); });
+  } catch (const std::system_error& error) {
+    if (says_out_of_memory(error)) return report(out_of_memory(context));
+    throw;
+  }
 
   const auto print_warnings = [&] {
     for (const std::string& warning : context.take_warnings()) print_message(warning);

@@ -202,10 +202,27 @@ Sign filtered_compare(const Vertex& v, const Vertex& w, Axis axis) {
   return difference > bound ? Sign::Positive : difference < -bound ? Sign::Negative : Sign::Zero;
 }
 
+const Rational& coordinate(const Point3& p, Axis axis) {
+  return axis == Axis::X ? p.x : axis == Axis::Y ? p.y : p.z;
+}
+
+// Input points have their coordinates at hand: equal ones, which are frequent, are equal limb by
+// limb.
+Decision compare_points(const Data& data, const Vertex& v, const Vertex& w, Axis axis) {
+  if (v.error == 0 && w.error == 0) {
+    return {sign_of_difference(v.coordinate(axis), w.coordinate(axis)), Tier::Double};
+  }
+  const Rational& x = coordinate(data.points.exact(v.point), axis);
+  const Rational& y = coordinate(data.points.exact(w.point), axis);
+  if (x == y) return {Sign::Zero, Tier::Symbolic};
+  return {sign_of(cmp(x, y)), Tier::Unbounded};
+}
+
 Decision compare(const Data& data, const Vertex& first, const Vertex& second, Axis axis) {
   if (const Sign sign = filtered_compare(first, second, axis); sign != Sign::Zero) {
     return {sign, Tier::Double};
   }
+  if (first.is_point && second.is_point) return compare_points(data, first, second, axis);
   if (share_perpendicular(data, first, second, axis)) return {Sign::Zero, Tier::Symbolic};
   const Vertex v = resolved(data, first);
   const Vertex w = resolved(data, second);

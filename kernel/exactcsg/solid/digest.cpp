@@ -57,6 +57,11 @@ class HashedText {
     used_ += text.size();
     return *this;
   }
+  HashedText& operator<<(char character) {
+    reserve(1);
+    buffer_[used_++] = character;
+    return *this;
+  }
   HashedText& operator<<(std::uint64_t number) {
     constexpr std::size_t longest = 20;
     reserve(longest);
@@ -73,7 +78,7 @@ class HashedText {
   }
   HashedText& operator<<(const Rational& number) {
     *this << number.get_num();
-    return number.get_den() == 1 ? *this : *this << "/" << number.get_den();
+    return number.get_den() == 1 ? *this : *this << '/' << number.get_den();
   }
   std::string digest() {
     flush();
@@ -158,7 +163,7 @@ std::vector<std::array<std::uint32_t, 3>> sides_of_faces(const Boundary& boundar
 std::string digest(const Boundary& boundary) {
   HashedText text;
   const auto section = [&text](std::string_view name, std::size_t count) {
-    text << name << " " << std::uint64_t{count} << "\n";
+    text << name << ' ' << std::uint64_t{count} << '\n';
   };
   text << "exactcsg.boundary/2\n";
   section("vertices", boundary.vertices.size());
@@ -166,7 +171,7 @@ std::string digest(const Boundary& boundary) {
       boundary.vertices, [](const Point3& p, const Point3& q) { return compare(p, q) < 0; });
   for (const std::uint32_t v : order) {
     const Point3& p = boundary.vertices[v];
-    text << p.x << " " << p.y << " " << p.z << "\n";
+    text << p.x << ' ' << p.y << ' ' << p.z << '\n';
   }
 
   const std::vector<std::uint32_t> rank = inverse_of(order);
@@ -178,19 +183,19 @@ std::string digest(const Boundary& boundary) {
   if (!std::is_sorted(edges.begin(), edges.end())) std::sort(edges.begin(), edges.end());
   section("edges", edges.size());
   for (const BoundaryEdge& e : edges) {
-    text << std::uint64_t{e.from} << " " << std::uint64_t{e.to} << "\n";
+    text << std::uint64_t{e.from} << ' ' << std::uint64_t{e.to} << '\n';
   }
 
   const UsedPlanes planes = planes_of_faces(boundary);
   section("planes", planes.planes.size());
   for (const Plane* p : planes.planes) {
-    text << p->a << " " << p->b << " " << p->c << " " << p->d << "\n";
+    text << p->a << ' ' << p->b << ' ' << p->c << ' ' << p->d << '\n';
   }
 
   const std::vector<std::array<std::uint32_t, 3>> sides = sides_of_faces(boundary, rank, planes);
   section("sides", sides.size());
   for (const auto& [plane, from, to] : sides) {
-    text << std::uint64_t{plane} << " " << std::uint64_t{from} << " " << std::uint64_t{to} << "\n";
+    text << std::uint64_t{plane} << ' ' << std::uint64_t{from} << ' ' << std::uint64_t{to} << '\n';
   }
   return text.digest();
 }

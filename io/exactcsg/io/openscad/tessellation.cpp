@@ -199,6 +199,45 @@ IntegerPolyhedron with_common_denominator(const Polyhedron& polyhedron) {
   return result;
 }
 
+namespace {
+
+// Reduces many fractions of one denominator. Theirs are a power of two, from doubles, times a power
+// of five, from decimals: the twos are counted, and what is left mostly fits a machine word.
+class CommonDenominator {
+ public:
+  explicit CommonDenominator(const Integer& value)
+      : value_(value), twos_(mpz_scan1(value.get_mpz_t(), 0)), odd_(value >> twos_) {}
+
+  Rational reduced(Integer& numerator) const {
+    Rational result;
+    if (numerator == 0) return result;
+    if (!odd_.fits_ulong_p()) {
+      result = Rational(numerator, value_);
+      result.canonicalize();
+      return result;
+    }
+    const mp_bitcnt_t common_twos = std::min(twos_, mpz_scan1(numerator.get_mpz_t(), 0));
+    mpz_tdiv_q_2exp(numerator.get_mpz_t(), numerator.get_mpz_t(), common_twos);
+    unsigned long odd = odd_.get_ui();
+    const unsigned long factor = mpz_gcd_ui(nullptr, numerator.get_mpz_t(), odd);
+    if (factor != 1) {
+      mpz_divexact_ui(numerator.get_mpz_t(), numerator.get_mpz_t(), factor);
+      odd /= factor;
+    }
+    mpz_set(result.get_num_mpz_t(), numerator.get_mpz_t());
+    mpz_set_ui(result.get_den_mpz_t(), odd);
+    mpz_mul_2exp(result.get_den_mpz_t(), result.get_den_mpz_t(), twos_ - common_twos);
+    return result;
+  }
+
+ private:
+  Integer value_;
+  mp_bitcnt_t twos_;
+  Integer odd_;
+};
+
+}  // namespace
+
 Polyhedron place(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
   // With one denominator for the map, too, a coordinate costs three products and one reduction.
   Integer map_denominator{1};
@@ -213,7 +252,7 @@ Polyhedron place(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
     }
     rows[i][3] *= polyhedron.denominator;
   }
-  const Integer denominator = map_denominator * polyhedron.denominator;
+  const CommonDenominator denominator(map_denominator * polyhedron.denominator);
 
   Polyhedron result;
   result.vertices.reserve(polyhedron.vertices.size());
@@ -223,9 +262,7 @@ Polyhedron place(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
     for (std::size_t k = 0; k < 3; ++k) {
       mpz_addmul(sum.get_mpz_t(), row[k].get_mpz_t(), v[k].get_mpz_t());
     }
-    Rational value(sum, denominator);
-    value.canonicalize();
-    return value;
+    return denominator.reduced(sum);
   };
   for (const auto& v : polyhedron.vertices) {
     result.vertices.push_back(
