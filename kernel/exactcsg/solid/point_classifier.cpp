@@ -168,6 +168,7 @@ PointClass classify_in(const Geometry& geometry, const RetainedCell& cell, const
   std::sort(through.begin(), through.end());
   through.erase(std::unique(through.begin(), through.end()), through.end());
   std::vector<Plane> planes;
+  planes.reserve(through.size());
   for (const PlaneRef plane : through) planes.push_back(geometry.exact_plane_value(plane));
   return classify_neighbourhood(planes, [&](std::span<const Sign> sides) {
     return membership(cell, [&](PlaneRef plane) {
