@@ -463,6 +463,34 @@ TEST(MeshComparison, OwnNonManifoldEdgesAreAllowed) {
   EXPECT_EQ(complaints(compare_with_soup(boundary, samples::soup_of(boundary))), "");
 }
 
+// The edge of the wedge lies in a face of the box: in the boundary it has two faces, and yet four
+// facets of a conforming mesh meet there. Edges may also touch along a part of them.
+TEST(MeshComparison, EdgesThatTouchFacesAndEdgesAreAllowed) {
+  Polyhedron wedge;
+  wedge.vertices = {{1, 1, 0}, {2, 0, 0}, {2, 2, 0}, {1, 1, 1}, {2, 0, 1}, {2, 2, 1}};
+  wedge.facets = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+  const Solid touching = samples::unite(
+      {box({0, 0, 0}, {1, 2, 1}), Solid::primitive({make_convex_polytope(wedge), {}})});
+  const Boundary boundary = evaluate(touching);
+  io::PolygonSoup soup;
+  soup.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 1}, {1, 0, 1},
+                   {1, 1, 1}, {1, 2, 1}, {0, 2, 1}, {2, 0, 0}, {2, 2, 0}, {2, 0, 1}, {2, 2, 1}};
+  soup.facets = {{0, 4, 3, 2, 1}, {5, 6, 7, 8, 9}, {0, 1, 6, 5},     {1, 2, 7, 6},
+                 {2, 3, 8, 7},    {3, 4, 9, 8},    {4, 0, 5, 9},     {2, 11, 10},
+                 {7, 12, 13},     {2, 10, 12, 7},  {10, 11, 13, 12}, {11, 2, 7, 13}};
+  EXPECT_EQ(complaints(compare_with_soup(boundary, soup)), "");
+  // A fin on that edge, of two facets without thickness, is none of the model's.
+  soup.vertices.push_back({1, 1, 2});
+  soup.facets.push_back({2, 7, 14});
+  soup.facets.push_back({7, 2, 14});
+  EXPECT_NE(complaints(compare_with_soup(boundary, soup)).find("6 facets at an edge: (1, 1, 0)"),
+            std::string::npos);
+
+  const Boundary shifted =
+      evaluate(samples::unite({box({0, 0, 0}, {1, 1, 2}), box({1, 1, 1}, {2, 2, 3})}));
+  EXPECT_EQ(complaints(compare_with_soup(shifted, samples::soup_of(shifted))), "");
+}
+
 TEST(MeshComparison, UnreadableFileFails) {
   const auto checks = compare_with_mesh_file(samples::plate_boundary(), "/no/such/file.stl");
   ASSERT_EQ(checks.size(), 1U);

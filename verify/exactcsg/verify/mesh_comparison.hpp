@@ -30,6 +30,9 @@
 //    one end to an image of the other, unless all its facets may have vanished: on each side of it
 //    the face has a third corner within 2 t of an end. A vertex is in the file unless all its edges
 //    may have vanished, or be shorter than 2 t.
+//  - More than two facets meet at a side of the file only where rounding has joined vertices at one
+//    of its ends, or where as many facets of the model meet: those at the edges along it, and two
+//    of every other face in which it lies.
 
 #include <filesystem>
 #include <string>
