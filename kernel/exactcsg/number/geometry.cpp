@@ -19,8 +19,16 @@ OrientedPlaneRef Geometry::plane(std::uint32_t added) const { return data_->of_a
 
 std::uint32_t Geometry::plane_count() const { return data_->planes.size(); }
 
+std::uint32_t Geometry::point_count() const {
+  return static_cast<std::uint32_t>(data_->points.size());
+}
+
 const Plane& Geometry::exact_plane(PlaneRef plane) const {
   return data_->exact(plane.table_index());
+}
+
+Plane Geometry::exact_plane_once(PlaneRef plane) const {
+  return plane.is_wall() ? exact_plane_value(plane) : data_->exact_once(plane.table_index());
 }
 
 Plane Geometry::exact_plane_value(PlaneRef plane) const {

@@ -101,10 +101,12 @@ class Geometry {
   // The canonical reference of the plane that Builder::add_plane returned index `added` for.
   OrientedPlaneRef plane(std::uint32_t added) const;
   std::uint32_t plane_count() const;  // distinct planes
+  std::uint32_t point_count() const;  // distinct points; ids are 0 ... point_count() - 1
 
   // Exact coprime integer coefficients with the stored normal's sense; walls too.
   const Plane& exact_plane(PlaneRef plane) const;  // REQUIRES !plane.is_wall()
   Plane exact_plane_value(PlaneRef plane) const;   // any
+  Plane exact_plane_once(PlaneRef plane) const;    // any; not kept for the next who asks
   const Point3& point(PointId id) const;
   Point3 exact_point(const Vertex& v) const;
 

@@ -65,6 +65,16 @@ class PlaneTable {
     });
   }
 
+  // The same for one who will not ask again: what is not known yet is not kept.
+  template <class HomogeneousOfPoint>
+  Plane exact_once(const HomogeneousOfPoint& homogeneous, std::uint32_t i) const {
+    const PlaneSource& source = sources_[i];
+    if (source.exact) return *source.exact;
+    if (const Plane* known = computed_.known(i)) return *known;
+    const auto& [p, q, r] = source.points;
+    return plane_through(homogeneous(p), homogeneous(q), homogeneous(r));
+  }
+
  private:
   std::vector<ApproximatePlane> approximate_;
   std::vector<PlaneSource> sources_;

@@ -209,11 +209,12 @@ class Merger {
     return result;
   }
 
-  // Vertices of one line in ascending order of their position on it.
+  // Vertices of one line in the order of their position on it, from either end.
   void sort_along(LineNumber line, std::vector<VertexNumber>& stations) {
-    const std::optional<Axis> axis = axis_along(geometry_, lines_[line]);
     std::sort(stations.begin(), stations.end());
     stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
+    if (stations.size() <= 2) return;  // as most lines have it
+    const std::optional<Axis> axis = axis_along(geometry_, lines_[line]);
     std::sort(stations.begin(), stations.end(), [&](VertexNumber a, VertexNumber b) {
       if (a == b) return false;
       const Vertex& v = vertices_[a];
@@ -223,25 +224,27 @@ class Merger {
     });
   }
 
-  void add_up(const std::vector<PieceEdge>& edges, const std::vector<LineNumber>& line_of_edge) {
-    struct Keyed {
-      LineNumber line;
-      std::uint32_t edge;
-      OrientedPlaneRef plane;
-    };
-    std::vector<Keyed> keyed;
-    keyed.reserve(edges.size());
-    for (std::uint32_t i = 0; i < edges.size(); ++i) {
-      keyed.push_back({line_of_edge[i], i, edges[i].plane});
+  // Sorted by line, then by oriented plane, then by number.
+  std::vector<std::uint32_t> edges_by_line(const std::vector<PieceEdge>& edges,
+                                           const std::vector<LineNumber>& line_of_edge) const {
+    std::vector<std::uint32_t> begin(lines_.size() + 1, 0);
+    for (const LineNumber line : line_of_edge) ++begin[line + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::uint32_t> order(edges.size());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::uint32_t i = 0; i < edges.size(); ++i) order[next[line_of_edge[i]]++] = i;
+    for (LineNumber line = 0; line < lines_.size(); ++line) {
+      std::sort(order.begin() + begin[line], order.begin() + begin[line + 1],
+                [&](std::uint32_t a, std::uint32_t b) {
+                  if (edges[a].plane != edges[b].plane) return edges[a].plane < edges[b].plane;
+                  return a < b;
+                });
     }
-    std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
-      if (a.line != b.line) return a.line < b.line;
-      if (a.plane != b.plane) return a.plane < b.plane;
-      return a.edge < b.edge;
-    });
-    std::vector<std::uint32_t> order;
-    order.reserve(keyed.size());
-    for (const Keyed& k : keyed) order.push_back(k.edge);
+    return order;
+  }
+
+  void add_up(const std::vector<PieceEdge>& edges, const std::vector<LineNumber>& line_of_edge) {
+    const std::vector<std::uint32_t> order = edges_by_line(edges, line_of_edge);
     content_.resize(lines_.size());
     std::vector<std::uint32_t> rank(vertices_.size(), none);
     std::vector<VertexNumber> stations;
@@ -353,19 +356,17 @@ class Merger {
   std::vector<Span> spans() {
     std::vector<Span> result;
     for (LineNumber line = 0; line < content_.size(); ++line) {
+      const auto first = static_cast<std::ptrdiff_t>(result.size());
       for_each_run(line, [&](const Segment&, VertexNumber from, VertexNumber to) {
         const auto [low, high] = std::minmax(from, to);
         result.push_back({line, low, high});
       });
+      const auto ends = [](const Span& span) { return std::pair(span.from, span.to); };
+      std::ranges::sort(result.begin() + first, result.end(), {}, ends);
+      result.erase(std::unique(result.begin() + first, result.end(),
+                               [&](const Span& a, const Span& b) { return ends(a) == ends(b); }),
+                   result.end());
     }
-    std::sort(result.begin(), result.end(), [](const Span& a, const Span& b) {
-      return std::tie(a.line, a.from, a.to) < std::tie(b.line, b.from, b.to);
-    });
-    result.erase(std::unique(result.begin(), result.end(),
-                             [](const Span& a, const Span& b) {
-                               return a.line == b.line && a.from == b.from && a.to == b.to;
-                             }),
-                 result.end());
     return result;
   }
 

@@ -128,7 +128,7 @@ void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, unsigned 
   }
   std::vector<Plane> planes(oriented.size());
   in_parallel(threads, oriented.size(), [&](std::size_t i) {
-    planes[i] = geometry.exact_plane_value(oriented[i].plane);
+    planes[i] = geometry.exact_plane_once(oriented[i].plane);
     if (oriented[i].sense < 0) planes[i] = opposite(planes[i]);
   });
   std::vector<BoundaryFace> faces;

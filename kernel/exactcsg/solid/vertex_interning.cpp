@@ -33,15 +33,37 @@ KeyInterval key_of(const Vertex& v, std::uint32_t item) {
   return {key - spread, key + spread, item};
 }
 
+// Every meeting point, and of each input point, of which there are many copies, the first one.
+struct Candidates {
+  std::vector<std::uint32_t> items;
+  std::vector<std::uint32_t> first_of_point;  // by id; none: the point does not occur
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+};
+
+Candidates candidates_of(const Geometry& geometry, std::span<const Vertex* const> vertices) {
+  Candidates result;
+  result.first_of_point.assign(geometry.point_count(), Candidates::none);
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    if (vertices[i]->is_point) {
+      std::uint32_t& first = result.first_of_point[static_cast<std::uint32_t>(vertices[i]->point)];
+      if (first != Candidates::none) continue;
+      first = i;
+    }
+    result.items.push_back(i);
+  }
+  return result;
+}
+
 }  // namespace
 
 InternedVertices intern(const Geometry& geometry, std::span<const Vertex* const> vertices,
                         TierStatistics& statistics) {
   InternedVertices result;
   result.number.resize(vertices.size());
+  const Candidates candidates = candidates_of(geometry, vertices);
   std::vector<KeyInterval> keys;
-  keys.reserve(vertices.size());
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) keys.push_back(key_of(*vertices[i], i));
+  keys.reserve(candidates.items.size());
+  for (const std::uint32_t i : candidates.items) keys.push_back(key_of(*vertices[i], i));
   for_each_cluster(keys, [&](std::span<const KeyInterval> cluster) {
     const std::size_t first = result.distinct.size();
     for (const KeyInterval& key : cluster) {
@@ -64,6 +86,11 @@ InternedVertices intern(const Geometry& geometry, std::span<const Vertex* const>
       }
     }
   });
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    if (!vertices[i]->is_point) continue;
+    const auto id = static_cast<std::uint32_t>(vertices[i]->point);
+    result.number[i] = result.number[candidates.first_of_point[id]];
+  }
   return result;
 }
 
