@@ -327,7 +327,10 @@ Sign Geometry::orientation(PlaneRef p, PlaneRef q, PlaneRef r, TierStatistics& s
     return recorded({Sign::Zero, Tier::Symbolic}, statistics);
   }
   const std::array<PlaneOperand, 3> planes{data_->operand(p), data_->operand(q), data_->operand(r)};
-  return recorded(decide(bits_of_meeting_point(planes).denominator,
+  // The offsets take no part in the determinant but are loaded with the normals, and must fit too.
+  const int bits = std::max({bits_of_meeting_point(planes).denominator, planes[0].offset_bits,
+                             planes[1].offset_bits, planes[2].offset_bits});
+  return recorded(decide(bits,
                          [&planes]<class T>() {
                            const Coefficients<T> second = load<T>(planes[1]);
                            const Coefficients<T> third = load<T>(planes[2]);
