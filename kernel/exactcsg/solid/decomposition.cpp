@@ -333,7 +333,8 @@ std::optional<double> position_near(std::vector<double>& middles, std::size_t ra
                                     double fraction) {
   for (std::size_t reach = 0; reach < middles.size(); ++reach) {
     for (const std::size_t i : {rank + reach, rank - reach - 1}) {
-      if (i + 1 < middles.size() && middles[i] < middles[i + 1]) {
+      // Before the first one, i has wrapped round to the largest numbers.
+      if (i < middles.size() - 1 && middles[i] < middles[i + 1]) {
         return middles[i] + fraction * (middles[i + 1] - middles[i]);
       }
     }
