@@ -255,7 +255,7 @@ TEST(Prune, AnExceptionOfClassifyComesOut) {
 // No recursion and no quadratic step (tests/csg/slow has all operators).
 TEST(Prune, AMillionDeep) {
   for (const test::Side side : {test::Side::Left, test::Side::Right}) {
-    const TestTree tree = test::chain(1'000'000, Difference, side, 1);
+    const TestTree tree = test::chain(test::chain_depth, Difference, side, 1);
     const auto unknown = [](int) { return Unknown; };
     EXPECT_TRUE(same_handle(prune(tree, unknown), tree));
     Flat result;
@@ -271,7 +271,7 @@ TEST(Prune, AMillionDeep) {
 // level).
 TEST(Prune, AMillionCollapsingOperators) {
   TestTree tree = leaf(1);
-  for (int i = 0; i < 1'000'000; ++i) {
+  for (int i = 0; i < test::chain_depth; ++i) {
     tree = i % 2 == 0 ? intersect(leaf(0), std::move(tree)) : subtract(std::move(tree), leaf(2));
   }
   const auto classify = [](int i) { return i == 0 ? In : i == 1 ? Unknown : Out; };

@@ -21,6 +21,7 @@ namespace {
 using test::all_assignments;
 using test::Bits;
 using test::chain;
+using test::chain_depth;
 using test::meaning;
 using test::random_tree;
 using test::Side;
@@ -174,7 +175,7 @@ TEST(Traverse, AnExceptionLeavesTheScratchUsable) {
 
 // No recursion: n + 1 primitives of value 1 add up to n + 1.
 TEST(Traverse, AMillionDeep) {
-  constexpr int n = 1'000'000;
+  constexpr int n = chain_depth;
   const auto sum = [](int a, BooleanOperator, int b) { return a + b; };
   for (const Side side : {Side::Left, Side::Right, Side::Single}) {
     const auto tree = chain(n, Difference, side, 1);

@@ -18,6 +18,7 @@ namespace exactcsg::csg {
 namespace {
 
 using test::chain;
+using test::chain_depth;
 using test::Side;
 using test::TestTree;
 using enum BooleanOperator;
@@ -123,7 +124,7 @@ TEST(Tree, NodesDieWithTheirLastHandle) {
 
 // LAW tree.1
 TEST(Tree, AMillionDeepIsBuiltCopiedComparedMappedAndDestroyed) {
-  constexpr int n = 1'000'000;
+  constexpr int n = chain_depth;
   for (const Side side : {Side::Left, Side::Right, Side::Single}) {
     const auto counter = std::make_shared<int>();
     {
