@@ -10,8 +10,8 @@
 
 namespace exactcsg::csg::test {
 
-// A million. Less under the sanitizers, where a million takes minutes; their stack frames are larger,
-// so that it is still more calls than a stack of 8 MiB holds.
+// A million. Less under the sanitizers, where a million takes minutes; their stack frames are
+// larger, so that it is still more calls than a stack of 8 MiB holds.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr int chain_depth = 200'000;
 #else
