@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
 
 #include "exactcsg/solid/box_pairs.hpp"
+#include "exactcsg/solid/bucket_sort.hpp"
 #include "exactcsg/solid/face_loops.hpp"
 #include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/line_interning.hpp"
@@ -145,7 +147,8 @@ class Merger {
       const auto [low, high] = std::minmax(edges_[i].from, edges_[i].to);
       order.push_back({(static_cast<std::uint64_t>(low) << 32U) | high, i});
     }
-    std::sort(order.begin(), order.end(), [&](const Keyed& a, const Keyed& b) {
+    const auto lower_end = [](const Keyed& keyed) { return keyed.ends >> 32U; };
+    sort_in_buckets(order, vertices_.size(), lower_end, [&](const Keyed& a, const Keyed& b) {
       if (a.ends != b.ends) return a.ends < b.ends;
       const PieceEdge& p = edges_[a.edge];
       const PieceEdge& q = edges_[b.edge];
@@ -154,6 +157,7 @@ class Merger {
       return a.edge < b.edge;
     });
     std::vector<PieceEdge> left;
+    left.reserve(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
       const PieceEdge& edge = edges_[order[i].edge];
       if (i + 1 < order.size() && order[i + 1].ends == order[i].ends) {
@@ -183,7 +187,12 @@ class Merger {
       const auto [first, second] = std::minmax(edges[i].plane.plane, edges[i].side_plane);
       order.push_back({first, second, i});
     }
-    std::sort(order.begin(), order.end(), [](const Keyed& a, const Keyed& b) {
+    // Walls are rare: they share the last bucket.
+    const std::size_t planes = geometry_.plane_count();
+    const auto first_plane = [planes](const Keyed& keyed) {
+      return keyed.first.is_wall() ? planes : keyed.first.table_index();
+    };
+    sort_in_buckets(order, planes + 1, first_plane, [](const Keyed& a, const Keyed& b) {
       if (a.first != b.first) return a.first < b.first;
       if (a.second != b.second) return a.second < b.second;
       return a.edge < b.edge;
@@ -546,6 +555,7 @@ class Merger {
       renumbered[used[i]] = static_cast<VertexNumber>(i);
     }
     Boundary boundary;
+    boundary.edges.reserve(edges.size());
     boundary.vertices.resize(used.size());
     boundary.approximate.resize(used.size());
     in_parallel(threads_, used.size(), [&](std::size_t i) {
@@ -565,7 +575,9 @@ class Merger {
       const auto [low, high] = std::minmax(edge.from, edge.to);
       boundary.edges.push_back({low, high});
     }
-    std::sort(boundary.edges.begin(), boundary.edges.end());
+    sort_in_buckets(
+        boundary.edges, used.size(), [](const BoundaryEdge& edge) { return edge.from; },
+        std::less<>());
     boundary.edges.erase(std::unique(boundary.edges.begin(), boundary.edges.end()),
                          boundary.edges.end());
     link_faces(geometry_, std::move(edges), threads_, boundary);
@@ -576,27 +588,22 @@ class Merger {
 
   // The vertices in lexicographic order; doubles decide nearly always.
   std::vector<VertexNumber> sorted_vertices() {
-    struct Keyed {
-      double x;
-      double error;
-      VertexNumber number;
-    };
-    std::vector<Keyed> keyed;
+    std::vector<KeyInterval> along_x;
     for (VertexNumber v = 0; v < vertices_.size(); ++v) {
       if (!is_vertex_[v]) continue;
-      const double slack = vertices_[v].error + 0x1p-51 * std::abs(vertices_[v].x);
-      keyed.push_back({vertices_[v].x, slack, v});
+      const double slack = vertices_[v].error * (1 + 0x1p-50) + 0x1p-51 * std::abs(vertices_[v].x);
+      along_x.push_back({vertices_[v].x - slack, vertices_[v].x + slack, v});
     }
-    std::sort(keyed.begin(), keyed.end(), [&](const Keyed& a, const Keyed& b) {
-      const double difference = a.x - b.x;
-      const double reach = a.error + b.error;
-      if (difference < -reach) return true;
-      if (difference > reach || a.number == b.number) return false;
-      return geometry_.compare_position(vertices_[a.number], vertices_[b.number], statistics_) < 0;
-    });
     std::vector<VertexNumber> result;
-    result.reserve(keyed.size());
-    for (const Keyed& k : keyed) result.push_back(k.number);
+    result.reserve(along_x.size());
+    for_each_cluster(along_x, [&](std::span<KeyInterval> cluster) {
+      std::sort(cluster.begin(), cluster.end(), [&](const KeyInterval& a, const KeyInterval& b) {
+        if (a.upper < b.lower || b.upper < a.lower) return a.upper < b.lower;
+        return a.item != b.item &&
+               geometry_.compare_position(vertices_[a.item], vertices_[b.item], statistics_) < 0;
+      });
+      for (const KeyInterval& key : cluster) result.push_back(key.item);
+    });
     return result;
   }
 

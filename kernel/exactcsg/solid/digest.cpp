@@ -3,14 +3,16 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
-#include <cstring>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <string>
 #include <string_view>
 
 #include "exactcsg/solid/boundary.hpp"
+#include "exactcsg/solid/bucket_sort.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -71,9 +73,15 @@ class HashedText {
     return *this;
   }
   HashedText& operator<<(const Integer& number) {
-    reserve(mpz_sizeinbase(number.get_mpz_t(), 16) + 2);  // sign and terminating zero
-    char* const text = mpz_get_str(buffer_.data() + used_, 16, number.get_mpz_t());
-    used_ += std::strlen(text);
+    constexpr std::size_t digits_of_limb = GMP_NUMB_BITS / 4;
+    std::size_t limb = mpz_size(number.get_mpz_t());
+    if (limb == 0) return *this << '0';
+    if (number < 0) *this << '-';
+    reserve(digits_of_limb * limb);
+    const mp_limb_t* const limbs = mpz_limbs_read(number.get_mpz_t());
+    --limb;
+    add_hexadecimal(limbs[limb], (static_cast<std::size_t>(std::bit_width(limbs[limb])) + 3) / 4);
+    while (limb > 0) add_hexadecimal(limbs[--limb], digits_of_limb);
     return *this;
   }
   HashedText& operator<<(const Rational& number) {
@@ -86,6 +94,12 @@ class HashedText {
   }
 
  private:
+  // REQUIRES that there is room
+  void add_hexadecimal(mp_limb_t value, std::size_t digits) {
+    char* const text = buffer_.data() + used_;
+    for (std::size_t i = digits; i > 0; value >>= 4U) text[--i] = "0123456789abcdef"[value & 15U];
+    used_ += digits;
+  }
   void reserve(std::size_t size) {
     if (buffer_.size() - used_ >= size) return;
     flush();
@@ -154,7 +168,8 @@ std::vector<std::array<std::uint32_t, 3>> sides_of_faces(const Boundary& boundar
       }
     }
   }
-  std::sort(sides.begin(), sides.end());
+  sort_in_buckets(
+      sides, planes.planes.size(), [](const auto& side) { return side[0]; }, std::less<>());
   return sides;
 }
 

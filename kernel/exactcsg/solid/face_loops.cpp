@@ -7,6 +7,7 @@
 #include <span>
 #include <tuple>
 
+#include "exactcsg/solid/bucket_sort.hpp"
 #include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 
@@ -119,9 +120,13 @@ class LoopLinker {
 
 void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, unsigned threads,
                 Boundary& boundary) {
-  std::sort(edges.begin(), edges.end(), [](const FaceEdge& a, const FaceEdge& b) {
-    return std::tie(a.plane, a.face) < std::tie(b.plane, b.face);
-  });
+  // No face lies in a wall.
+  sort_in_buckets(
+      edges, geometry.plane_count(),
+      [](const FaceEdge& edge) { return edge.plane.plane.table_index(); },
+      [](const FaceEdge& a, const FaceEdge& b) {
+        return std::tie(a.plane, a.face) < std::tie(b.plane, b.face);
+      });
   std::vector<OrientedPlaneRef> oriented;
   for (const FaceEdge& edge : edges) {
     if (oriented.empty() || oriented.back() != edge.plane) oriented.push_back(edge.plane);

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "exactcsg/number/orientation.hpp"
+#include "exactcsg/solid/bucket_sort.hpp"
 #include "exactcsg/solid/polygon.hpp"
 
 namespace exactcsg {
@@ -71,8 +72,9 @@ class EdgeOwners {
         owners_.push_back({directed_edge(facet[i], facet[(i + 1) % facet.size()]), f});
       }
     }
-    std::sort(owners_.begin(), owners_.end(),
-              [](const Owner& a, const Owner& b) { return a.edge < b.edge; });
+    sort_in_buckets(
+        owners_, polyhedron.vertices.size(), [](const Owner& owner) { return owner.edge >> 32U; },
+        [](const Owner& a, const Owner& b) { return a.edge < b.edge; });
   }
 
   // THROWS Error(InternalError) if there is none.

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -18,6 +19,7 @@
 #include <utility>
 
 #include "exactcsg/solid/boundary.hpp"
+#include "exactcsg/solid/bucket_sort.hpp"
 #include "exactcsg/solid/scaled_vertices.hpp"
 #include "exactcsg/support/error.hpp"
 
@@ -184,14 +186,16 @@ struct EdgeGroups {
   bool some_with_more_than_two = false;
 };
 
-EdgeGroups group_by_edge(const Surface& surface) {
+EdgeGroups group_by_edge(const Surface& surface, std::size_t vertices) {
   std::vector<std::pair<std::uint64_t, Index>> keyed;
   keyed.reserve(surface.sides.size());
   for (Index i = 0; i < surface.sides.size(); ++i) {
     const auto [low, high] = std::minmax(surface.sides[i].from, surface.sides[i].to);
     keyed.emplace_back((static_cast<std::uint64_t>(low) << 32U) | high, i);
   }
-  std::sort(keyed.begin(), keyed.end());
+  sort_in_buckets(
+      keyed, vertices, [](const auto& ends_and_side) { return ends_and_side.first >> 32U; },
+      std::less<>());
   EdgeGroups groups;
   groups.sides.reserve(keyed.size());
   for (std::size_t k = 0; k < keyed.size(); ++k) {
@@ -459,7 +463,7 @@ Topology topology(const Boundary& boundary) {
   OutlineRepair(boundary, surface).run();
   set_previous(surface);
   count_outlines(boundary, surface);
-  const EdgeGroups groups = group_by_edge(surface);
+  const EdgeGroups groups = group_by_edge(surface, boundary.vertices.size());
   const Twins twins(boundary, surface, groups);
 
   const std::vector<Index> round_solid = twins.of(Joined::Solid);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "exactcsg/number/geometry.hpp"
+#include "exactcsg/solid/bucket_sort.hpp"
 
 namespace exactcsg {
 
@@ -31,9 +32,14 @@ void for_each_cluster(std::vector<KeyInterval>& intervals, Visit visit) {
       interval.upper = infinity;
     }
   }
-  std::sort(intervals.begin(), intervals.end(), [](const KeyInterval& a, const KeyInterval& b) {
-    return a.lower < b.lower || (a.lower == b.lower && a.item < b.item);
-  });
+  const DoubleBuckets buckets(intervals,
+                              [](const KeyInterval& interval) { return interval.lower; });
+  sort_in_buckets(
+      intervals, buckets.count(),
+      [&](const KeyInterval& interval) { return buckets.of(interval.lower); },
+      [](const KeyInterval& a, const KeyInterval& b) {
+        return a.lower < b.lower || (a.lower == b.lower && a.item < b.item);
+      });
   for (std::size_t begin = 0; begin < intervals.size();) {
     double reach = intervals[begin].upper;
     std::size_t end = begin + 1;
