@@ -16,7 +16,6 @@ endif()
 
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL REQUIRED)
-find_package(OpenMesh CONFIG REQUIRED)  # CONFIG: CGAL brings a FindOpenMesh of its own
 pkg_check_modules(pc_polyclipping REQUIRED IMPORTED_TARGET polyclipping)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
