@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Polygon mesh files (OFF, STL ASCII and binary, OBJ, PLY): reading as a soup of polygons exactly as
-// the file says, and writing a canonical boundary, triangulated without T-junctions.
+// Polygon mesh files (OFF, STL ASCII and binary, OBJ, PLY): reading as a soup of polygons exactly
+// as the file says, and writing a canonical boundary, triangulated without T-junctions.
 
 #include <array>
 #include <cstdint>
