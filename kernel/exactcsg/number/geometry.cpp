@@ -45,17 +45,7 @@ Point3 Geometry::exact_point(const Vertex& v) const {
   return point_of(meeting_point(load<Integer>(p), load<Integer>(q), load<Integer>(r)));
 }
 
-Vertex Geometry::vertex(PointId id) const {
-  const ApproximatePoint& p = data_->points.approximate(id);
-  Vertex v;
-  v.x = p.x;
-  v.y = p.y;
-  v.z = p.z;
-  v.error = p.error;
-  v.point = id;
-  v.is_point = true;
-  return v;
-}
+Vertex Geometry::vertex(PointId id) const { return data_->points.vertex(id); }
 
 Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r) const {
   if (q < p) std::swap(p, q);

@@ -177,6 +177,7 @@ class Geometry::Builder {
   // Equal points get equal ids. COST: amortised O(1) hash of the exact value.
   PointId add_point(const Point3& point);
   const Point3& point(PointId id) const;
+  Vertex vertex(PointId id) const;
   // The plane through three points, counter-clockwise from outside. Lazy: nothing exact is computed
   // unless the certified double is too poor or another plane may coincide.
   // THROWS Error(DegenerateFacet) if they are collinear. Returns 0, 1, 2, ... in order of calls.

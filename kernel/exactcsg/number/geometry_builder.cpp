@@ -78,6 +78,8 @@ PointId Geometry::Builder::add_point(const Point3& point) { return state_->point
 
 const Point3& Geometry::Builder::point(PointId id) const { return state_->points.exact(id); }
 
+Vertex Geometry::Builder::vertex(PointId id) const { return state_->points.vertex(id); }
+
 std::uint32_t Geometry::Builder::add_plane(PointId p, PointId q, PointId r) {
   const std::uint32_t index = state_->planes.add(state_->points, {p, q, r});
   for (const PointId id : {p, q, r}) add_incidence(id, index);

@@ -27,9 +27,14 @@ void make_multiple(Integer& common, const Integer& denominator) {
   }
 }
 
-Integer scaled(const Rational& value, const Integer& denominator) {
-  if (value.get_den() == denominator) return value.get_num();
-  return value.get_num() * (denominator / value.get_den());
+// value * denominator. REQUIRES that is an integer
+void set_scaled(Integer& result, const Rational& value, const Integer& denominator) {
+  if (value.get_den() == denominator) {
+    result = value.get_num();
+    return;
+  }
+  mpz_divexact(result.get_mpz_t(), denominator.get_mpz_t(), value.get_den_mpz_t());
+  mpz_mul(result.get_mpz_t(), result.get_mpz_t(), value.get_num_mpz_t());
 }
 
 // What plane_through computes with: kept by each thread, since allocating took longer than
@@ -102,9 +107,9 @@ Homogeneous<Integer> homogeneous_of(const Point3& point) {
   result.w = point.x.get_den();
   make_multiple(result.w, point.y.get_den());
   make_multiple(result.w, point.z.get_den());
-  result.x = scaled(point.x, result.w);
-  result.y = scaled(point.y, result.w);
-  result.z = scaled(point.z, result.w);
+  set_scaled(result.x, point.x, result.w);
+  set_scaled(result.y, point.y, result.w);
+  set_scaled(result.z, point.z, result.w);
   return result;
 }
 

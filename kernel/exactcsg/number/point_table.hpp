@@ -35,6 +35,7 @@ class PointTable {
   const ApproximatePoint& approximate(PointId id) const {
     return approximate_[static_cast<std::size_t>(id)];
   }
+  Vertex vertex(PointId id) const;
 
  private:
   void enlarge_slots();

@@ -69,29 +69,32 @@ class SurfaceSummation {
     sums_.two_areas.value += root_;
   }
 
-  // The fan of triangles first, p, q.
+  // The fan of triangles first, first + u, first + v.
   void add_loop(const std::vector<std::uint32_t>& loop) {
+    if (loop.size() < 3) return;
     const Coordinates& first = vertices_.coordinates[loop.front()];
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
-      const Coordinates& p = vertices_.coordinates[loop[k]];
-      const Coordinates& q = vertices_.coordinates[loop[k + 1]];
-      set_cross(first, p, q);
-      determinant_ = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        face_area_[i] += cross_[i];
-        mpz_addmul(determinant_.get_mpz_t(), first[i].get_mpz_t(), cross_[i].get_mpz_t());
-      }
-      sums_.six_volumes.value += determinant_;
-      if (wanted_ == Wanted::Everything) add_moments(first, p, q);
+    loop_volume_ = 0;
+    set_difference(u_, vertices_.coordinates[loop[1]], first);
+    for (std::size_t k = 2; k < loop.size(); ++k) {
+      set_difference(v_, vertices_.coordinates[loop[k]], first);
+      set_cross();
+      set_determinant(first);
+      for (std::size_t i = 0; i < 3; ++i) face_area_[i] += cross_[i];
+      loop_volume_ += determinant_;
+      if (wanted_ == Wanted::Everything && sgn(determinant_) != 0) add_moments_beyond_first();
+      u_.swap(v_);
+    }
+    sums_.six_volumes.value += loop_volume_;
+    if (wanted_ == Wanted::Everything) add_moments_of_first(first);
+  }
+
+  static void set_difference(Coordinates& result, const Coordinates& p, const Coordinates& q) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_sub(result[i].get_mpz_t(), p[i].get_mpz_t(), q[i].get_mpz_t());
     }
   }
 
-  // (p - first) x (q - first)
-  void set_cross(const Coordinates& first, const Coordinates& p, const Coordinates& q) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      mpz_sub(u_[i].get_mpz_t(), p[i].get_mpz_t(), first[i].get_mpz_t());
-      mpz_sub(v_[i].get_mpz_t(), q[i].get_mpz_t(), first[i].get_mpz_t());
-    }
+  void set_cross() {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
@@ -100,13 +103,26 @@ class SurfaceSummation {
     }
   }
 
-  // The tetrahedron origin, first, p, q has the moment det / 24 (first + p + q).
-  void add_moments(const Coordinates& first, const Coordinates& p, const Coordinates& q) {
-    if (sgn(determinant_) == 0) return;
+  void set_determinant(const Coordinates& first) {
+    mpz_mul(determinant_.get_mpz_t(), first[0].get_mpz_t(), cross_[0].get_mpz_t());
+    for (std::size_t i = 1; i < 3; ++i) {
+      mpz_addmul(determinant_.get_mpz_t(), first[i].get_mpz_t(), cross_[i].get_mpz_t());
+    }
+  }
+
+  // The tetrahedron origin, first, first + u, first + v has the moment det / 24 (3 first + u + v).
+  void add_moments_beyond_first() {
     for (std::size_t i = 0; i < 3; ++i) {
-      mpz_add(root_.get_mpz_t(), first[i].get_mpz_t(), p[i].get_mpz_t());
-      mpz_add(root_.get_mpz_t(), root_.get_mpz_t(), q[i].get_mpz_t());
+      mpz_add(root_.get_mpz_t(), u_[i].get_mpz_t(), v_[i].get_mpz_t());
       mpz_addmul(sums_.moments[i].value.get_mpz_t(), determinant_.get_mpz_t(), root_.get_mpz_t());
+    }
+  }
+
+  void add_moments_of_first(const Coordinates& first) {
+    loop_volume_ *= 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_addmul(sums_.moments[i].value.get_mpz_t(), first[i].get_mpz_t(),
+                 loop_volume_.get_mpz_t());
     }
   }
 
@@ -140,6 +156,7 @@ class SurfaceSummation {
   Coordinates v_;
   Coordinates cross_;
   Integer determinant_;
+  Integer loop_volume_;
   Integer square_;
   Integer root_;
   Integer rest_;
@@ -226,14 +243,10 @@ std::array<Enclosure, 3> enclose_centroid(const Boundary& boundary, int bits) {
 
 std::optional<BoundingBox> bounding_box(const Boundary& boundary) {
   if (boundary.vertices.empty()) return std::nullopt;
-  BoundingBox box{boundary.vertices.front(), boundary.vertices.front()};
-  for (const Point3& p : boundary.vertices) {
-    for (const auto coordinate : {&Point3::x, &Point3::y, &Point3::z}) {
-      if (p.*coordinate < box.lower.*coordinate) box.lower.*coordinate = p.*coordinate;
-      if (p.*coordinate > box.upper.*coordinate) box.upper.*coordinate = p.*coordinate;
-    }
-  }
-  return box;
+  const CoordinateRange x = coordinate_range(boundary, 0);
+  const CoordinateRange y = coordinate_range(boundary, 1);
+  const CoordinateRange z = coordinate_range(boundary, 2);
+  return BoundingBox{{x.lowest, y.lowest, z.lowest}, {x.highest, y.highest, z.highest}};
 }
 
 }  // namespace exactcsg

@@ -28,14 +28,11 @@ std::optional<Integer> common_denominator(const std::vector<Point3>& points) {
 }
 
 // An exponent e with every extent of the vertices below 2^e, and not much more.
-long extent_exponent(const std::vector<Point3>& points) {
+long extent_exponent(const Boundary& boundary) {
   long exponent = -1000000;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto [low, high] =
-        std::minmax_element(points.begin(), points.end(), [&](const Point3& p, const Point3& q) {
-          return coordinate_of(p, i) < coordinate_of(q, i);
-        });
-    const Rational extent = coordinate_of(*high, i) - coordinate_of(*low, i);
+    const CoordinateRange range = coordinate_range(boundary, i);
+    const Rational extent = range.highest - range.lowest;
     if (extent == 0) continue;
     exponent =
         std::max(exponent, static_cast<long>(mpz_sizeinbase(extent.get_num_mpz_t(), 2)) -
@@ -84,6 +81,25 @@ void move_to_origin(ScaledVertices& s) {
 
 }  // namespace
 
+CoordinateRange coordinate_range(const Boundary& boundary, std::size_t axis) {
+  // Rounding to nearest is monotone: only equal doubles leave the order open.
+  const bool has_doubles = boundary.approximate.size() == boundary.vertices.size();
+  const auto less = [&](std::size_t v, std::size_t w) {
+    if (has_doubles && boundary.approximate[v][axis] != boundary.approximate[w][axis]) {
+      return boundary.approximate[v][axis] < boundary.approximate[w][axis];
+    }
+    return coordinate_of(boundary.vertices[v], axis) < coordinate_of(boundary.vertices[w], axis);
+  };
+  std::size_t lowest = 0;
+  std::size_t highest = 0;
+  for (std::size_t v = 1; v < boundary.vertices.size(); ++v) {
+    if (less(v, lowest)) lowest = v;
+    if (less(highest, v)) highest = v;
+  }
+  return {coordinate_of(boundary.vertices[lowest], axis),
+          coordinate_of(boundary.vertices[highest], axis)};
+}
+
 bool has_short_common_denominator(const Boundary& boundary) {
   return common_denominator(boundary.vertices).has_value();
 }
@@ -108,7 +124,7 @@ ScaledVertices scale_vertices(const Boundary& boundary, int bits) {
       }
     }
   } else {
-    const long shift = bits - extent_exponent(boundary.vertices);
+    const long shift = bits - extent_exponent(boundary);
     s.unit = power_of_two(-shift);
     Integer scratch;
     for (std::size_t v = 0; v < s.coordinates.size(); ++v) {

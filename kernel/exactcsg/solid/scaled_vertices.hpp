@@ -26,6 +26,15 @@ struct ScaledVertices {
 // COST: O(vertices) integer divisions of the length of the input
 ScaledVertices scale_vertices(const Boundary& boundary, int bits);
 
+struct CoordinateRange {
+  const Rational& lowest;
+  const Rational& highest;
+};
+
+// The least and the greatest of the vertices' coordinates along an axis (0 ... 2).
+// REQUIRES a vertex. COST: O(vertices) comparisons of doubles
+CoordinateRange coordinate_range(const Boundary& boundary, std::size_t axis);
+
 // Only exactly; false if the common denominator is longer than 512 bits.
 bool has_short_common_denominator(const Boundary& boundary);
 

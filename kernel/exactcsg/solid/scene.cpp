@@ -177,8 +177,9 @@ class SceneBuilder {
     near.reserve(polyhedron.vertices.size());
     for (const Point3& vertex : polyhedron.vertices) {
       points.push_back(builder_.add_point(vertex));
-      near.push_back({vertex.x.get_d(), vertex.y.get_d(), vertex.z.get_d()});
-      extend_bounds(near.back());
+      const Vertex rounded = builder_.vertex(points.back());
+      near.push_back({rounded.x, rounded.y, rounded.z});
+      extend_bounds(near.back(), rounded.error);
     }
     std::vector<std::array<std::uint32_t, 3>> triples;
     std::vector<std::uint32_t> planes;
@@ -223,10 +224,11 @@ class SceneBuilder {
     return builder_.add_plane(plane_across(own, vertices[from], vertices[to]));
   }
 
-  void extend_bounds(const Double3& coordinates) {
+  // An infinite error: coordinates that doubles cannot hold.
+  void extend_bounds(const Double3& coordinates, double error) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double value = coordinates[axis];
-      if (!(std::abs(value) <= largest_coordinate)) {
+      if (!(std::abs(value) <= largest_coordinate && error <= largest_coordinate)) {
         throw Error(ErrorId::NumberOutOfRange, {"a coordinate beyond 1e290", ""});
       }
       lower_[axis] = std::min(lower_[axis], value);
