@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -72,16 +73,17 @@ class BoxHierarchy {
   // visit(i) for each box that meets the query.
   template <class Visit>
   void for_each_meeting(const DoubleBox& query, Visit visit) const {
-    std::vector<std::uint32_t> stack;
-    if (!nodes_.empty()) stack.push_back(0);
-    while (!stack.empty()) {
-      const std::uint32_t a = stack.back();
-      stack.pop_back();
+    // The depth is the logarithm of the number of boxes, and one of two children waits at each.
+    std::array<std::uint32_t, 64> stack;
+    std::size_t waiting = nodes_.empty() ? 0 : 1;
+    stack[0] = 0;
+    while (waiting > 0) {
+      const std::uint32_t a = stack[--waiting];
       const Node& n = nodes_[a];
       if (!meet(n.box, query)) continue;
       if (n.second != 0) {
-        stack.push_back(a + 1);
-        stack.push_back(n.second);
+        stack[waiting++] = a + 1;
+        stack[waiting++] = n.second;
         continue;
       }
       for (std::uint32_t k = n.begin; k < n.end; ++k) {
@@ -136,6 +138,62 @@ class BoxHierarchy {
   std::span<const DoubleBox> boxes_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
+};
+
+// Boxes in groups, of which only pairs of different groups are wanted. A group's own hierarchy is
+// built when another group comes near.
+class GroupedBoxes {
+ public:
+  // Group g is the boxes begins[g] ... begins[g + 1], the last one up to the end.
+  // REQUIRES begins ascends from 0, if there are boxes; both outlive this.
+  GroupedBoxes(std::span<const DoubleBox> boxes, std::span<const std::uint32_t> begins)
+      : boxes_(boxes), begins_(begins), hierarchies_(begins.size()) {
+    group_boxes_.reserve(begins.size());
+    for (std::uint32_t g = 0; g < begins.size(); ++g) {
+      DoubleBox box = boxes[begins[g]];
+      for (std::uint32_t i = begins[g] + 1; i < end_of(g); ++i) box = join(box, boxes[i]);
+      group_boxes_.push_back(box);
+    }
+  }
+
+  // visit(i, j) once for each pair of boxes of different groups that meet.
+  template <class Visit>
+  void for_each_pair(Visit visit) {
+    BoxHierarchy(group_boxes_).for_each_pair([&](std::uint32_t g, std::uint32_t h) {
+      if (size_of(g) > size_of(h)) std::swap(g, h);
+      for (std::uint32_t i = begins_[g]; i < end_of(g); ++i) {
+        if (meet(boxes_[i], group_boxes_[h])) {
+          for_each_meeting(h, boxes_[i], [&](std::uint32_t j) { visit(i, j); });
+        }
+      }
+    });
+  }
+
+ private:
+  static constexpr std::uint32_t small_group = 16;
+
+  std::uint32_t end_of(std::uint32_t g) const {
+    return g + 1 < begins_.size() ? begins_[g + 1] : static_cast<std::uint32_t>(boxes_.size());
+  }
+  std::uint32_t size_of(std::uint32_t g) const { return end_of(g) - begins_[g]; }
+
+  template <class Visit>
+  void for_each_meeting(std::uint32_t g, const DoubleBox& query, Visit visit) {
+    if (size_of(g) <= small_group) {
+      for (std::uint32_t i = begins_[g]; i < end_of(g); ++i) {
+        if (meet(boxes_[i], query)) visit(i);
+      }
+      return;
+    }
+    std::optional<BoxHierarchy>& hierarchy = hierarchies_[g];
+    if (!hierarchy) hierarchy.emplace(boxes_.subspan(begins_[g], size_of(g)));
+    hierarchy->for_each_meeting(query, [&](std::uint32_t i) { visit(begins_[g] + i); });
+  }
+
+  std::span<const DoubleBox> boxes_;
+  std::span<const std::uint32_t> begins_;
+  std::vector<DoubleBox> group_boxes_;
+  std::vector<std::optional<BoxHierarchy>> hierarchies_;
 };
 
 }  // namespace exactcsg

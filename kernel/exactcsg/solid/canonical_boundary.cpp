@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 #include "exactcsg/solid/box_pairs.hpp"
 #include "exactcsg/solid/bucket_sort.hpp"
@@ -76,9 +77,13 @@ struct LineContent {
 
 class Merger {
  public:
-  Merger(const Geometry& geometry, const std::vector<PieceBuffer>& buffers, unsigned threads,
+  Merger(const Scene& scene, const std::vector<PieceBuffer>& buffers, unsigned threads,
          Progress* progress)
-      : geometry_(geometry), threads_(threads), progress_(progress), faces_(count_pieces(buffers)) {
+      : scene_(scene),
+        geometry_(scene.geometry),
+        threads_(threads),
+        progress_(progress),
+        faces_(count_pieces(buffers)) {
     number_vertices(buffers);
   }
 
@@ -128,11 +133,19 @@ class Merger {
           edges_.push_back(
               {piece.plane, buffer.corners[piece.first_corner + i].side_plane, from, to, number});
         }
+        polytope_of_piece_.push_back(polytope_of(piece));
         ++number;
       }
       base += buffer.corners.size();
     }
     statistics_pieces_ = number;
+  }
+
+  // The convex primitive of which the piece is a whole facet, or none.
+  std::uint32_t polytope_of(const BoundaryPiece& piece) const {
+    if (piece.share != facet_share::whole) return none;
+    const PrimitiveIndex primitive = scene_.facets[piece.facet].primitive;
+    return scene_.primitives[primitive].convex ? primitive : none;
   }
 
   // Most seams have the same two ends on both sides: they cancel without a look at their line.
@@ -359,6 +372,7 @@ class Merger {
     LineNumber line;
     VertexNumber from;
     VertexNumber to;
+    std::uint32_t polytope;  // the convex primitive of one of whose edges it is a part, or none
   };
 
   // The parts of a line between neighbouring vertices that some segment covers.
@@ -366,21 +380,32 @@ class Merger {
     std::vector<Span> result;
     for (LineNumber line = 0; line < content_.size(); ++line) {
       const auto first = static_cast<std::ptrdiff_t>(result.size());
-      for_each_run(line, [&](const Segment&, VertexNumber from, VertexNumber to) {
-        const auto [low, high] = std::minmax(from, to);
-        result.push_back({line, low, high});
+      for_each_run(line, [&](const Run& run) {
+        const auto [low, high] = std::minmax(run.from, run.to);
+        result.push_back({line, low, high, run.polytope});
       });
-      const auto ends = [](const Span& span) { return std::pair(span.from, span.to); };
-      std::ranges::sort(result.begin() + first, result.end(), {}, ends);
-      result.erase(std::unique(result.begin() + first, result.end(),
-                               [&](const Span& a, const Span& b) { return ends(a) == ends(b); }),
-                   result.end());
+      // Any of the polytopes will do; `none` sorts last.
+      const auto key = [](const Span& span) {
+        return std::tuple(span.from, span.to, span.polytope);
+      };
+      std::ranges::sort(result.begin() + first, result.end(), {}, key);
+      const auto same_ends = [](const Span& a, const Span& b) {
+        return a.from == b.from && a.to == b.to;
+      };
+      result.erase(std::unique(result.begin() + first, result.end(), same_ends), result.end());
     }
     return result;
   }
 
-  // visit(segment, from, to) for the segments of each oriented plane, joined where they continue
-  // one another and cut at vertices.
+  // Segments of one oriented plane, joined where they continue one another and cut at vertices.
+  struct Run {
+    const Segment& owner;
+    VertexNumber from;
+    VertexNumber to;
+    std::uint32_t polytope;  // of all its segments, or none
+  };
+
+  // visit(run)
   template <class Visit>
   void for_each_run(LineNumber line, Visit visit) {
     const LineContent& content = content_[line];
@@ -404,8 +429,10 @@ class Merger {
     std::uint32_t start = none;  // rank where the present run began
     bool forward = true;
     const Segment* owner = nullptr;
+    std::uint32_t polytope = none;
     for (std::size_t s = begin; s < end; ++s) {
       const Segment& segment = content.segments[s];
+      const std::uint32_t polytope_here = polytope_of_piece_[segment.piece];
       const auto [low, high] = std::minmax(rank_[segment.from], rank_[segment.to]);
       const bool goes_forward = rank_[segment.from] < rank_[segment.to];
       if (is_vertex_[content.stations[low]]) {
@@ -413,16 +440,19 @@ class Merger {
         start = low;
         forward = goes_forward;
         owner = &segment;
+        polytope = polytope_here;
       }
+      if (polytope != polytope_here) polytope = none;
       if (start == none || forward != goes_forward)
         broken("an edge that ends where there is no vertex");
       for (std::uint32_t r = low + 1; r <= high; ++r) {
         if (!is_vertex_[content.stations[r]]) continue;
         const VertexNumber a = content.stations[start];
         const VertexNumber b = content.stations[r];
-        visit(*owner, forward ? a : b, forward ? b : a);
+        visit(Run{*owner, forward ? a : b, forward ? b : a, polytope});
         start = r;
         owner = &segment;
+        polytope = polytope_here;
       }
       // Ends in a vertex: the run is over unless the next segment goes on from here.
       if (start == high) start = none;
@@ -430,17 +460,31 @@ class Merger {
     if (start != none) broken("an edge that ends where there is no vertex");
   }
 
-  // Edges that only touch: a vertex on another edge, or two edges that cross.
+  // Edges that only touch: a vertex on another edge, or two edges that cross. Edges of one convex
+  // polytope meet at vertices that end both of them.
   void touch_edges() {
-    const std::vector<Span> all = spans();
+    std::vector<Span> all = spans();
+    const std::size_t primitives = scene_.primitives.size();
+    const auto group_of = [primitives](const Span& span) {
+      return std::min<std::size_t>(span.polytope, primitives);
+    };
+    sort_in_buckets(all, primitives + 1, group_of, [](const Span& a, const Span& b) {
+      return std::tie(a.line, a.from, a.to) < std::tie(b.line, b.from, b.to);
+    });
     std::vector<DoubleBox> boxes;
+    std::vector<std::uint32_t> group_begins;
     boxes.reserve(all.size());
-    for (const Span& span : all) {
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+      const Span& span = all[i];
       boxes.push_back(join(box_of(vertices_[span.from]), box_of(vertices_[span.to])));
+      if (i == 0 || span.polytope == none || span.polytope != all[i - 1].polytope) {
+        group_begins.push_back(i);
+      }
     }
     std::vector<LineNumber> changed;
-    BoxHierarchy(boxes).for_each_pair(
-        [&](std::uint32_t i, std::uint32_t j) { touch(all[i], all[j], changed); });
+    GroupedBoxes(boxes, group_begins).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+      touch(all[i], all[j], changed);
+    });
     if (changed.empty()) return;
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
@@ -545,8 +589,8 @@ class Merger {
   Boundary assemble() {
     std::vector<FaceEdge> edges;
     for (LineNumber line = 0; line < content_.size(); ++line) {
-      for_each_run(line, [&](const Segment& owner, VertexNumber from, VertexNumber to) {
-        edges.push_back({owner.plane, faces_.find(owner.piece), from, to});
+      for_each_run(line, [&](const Run& run) {
+        edges.push_back({run.owner.plane, faces_.find(run.owner.piece), run.from, run.to});
       });
     }
     const std::vector<VertexNumber> used = sorted_vertices();
@@ -607,12 +651,14 @@ class Merger {
     return result;
   }
 
+  const Scene& scene_;
   const Geometry& geometry_;
   unsigned threads_;
   Progress* progress_;
   TierStatistics statistics_;
   std::uint64_t statistics_pieces_ = 0;
   std::vector<PieceEdge> edges_;
+  std::vector<std::uint32_t> polytope_of_piece_;
   std::vector<Vertex> vertices_;
   DisjointSets faces_;
   std::vector<LineSample> lines_;
@@ -627,9 +673,9 @@ class Merger {
 
 }  // namespace
 
-Boundary merge_pieces(const Geometry& geometry, const std::vector<PieceBuffer>& buffers,
-                      unsigned threads, Progress* progress) {
-  return Merger(geometry, buffers, threads, progress).merge();
+Boundary merge_pieces(const Scene& scene, const std::vector<PieceBuffer>& buffers, unsigned threads,
+                      Progress* progress) {
+  return Merger(scene, buffers, threads, progress).merge();
 }
 
 }  // namespace exactcsg

@@ -22,9 +22,10 @@
 namespace exactcsg {
 
 // REQUIRES the pieces are what cell evaluation emits for one bounded solid: closed, and disjoint
-// but for their rims. THROWS Error(InternalError) where they are not. The statistics of the result
-// hold what merging itself counted.
-Boundary merge_pieces(const Geometry& geometry, const std::vector<PieceBuffer>& buffers,
-                      unsigned threads, Progress* progress);
+// but for their rims; a piece whose share is `whole` is a facet of the scene. THROWS
+// Error(InternalError) where they are not. The statistics of the result hold what merging itself
+// counted.
+Boundary merge_pieces(const Scene& scene, const std::vector<PieceBuffer>& buffers, unsigned threads,
+                      Progress* progress);
 
 }  // namespace exactcsg

@@ -168,8 +168,7 @@ Boundary evaluate(const Solid& solid, const EvaluateOptions& options) {
   require_bounded(solid, scene, result.buffers);
   restore_whole_facets(scene, result.buffers);
   if (options.progress != nullptr) options.progress->begin("merge", 0);
-  Boundary boundary =
-      merge_pieces(scene.geometry, result.buffers, options.threads, options.progress);
+  Boundary boundary = merge_pieces(scene, result.buffers, options.threads, options.progress);
   boundary.statistics.tiers += result.tiers;
   boundary.statistics.primitives = scene.primitives.size();
   boundary.statistics.facets = scene.facets.size();

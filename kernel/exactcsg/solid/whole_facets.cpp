@@ -36,13 +36,15 @@ void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers)
     for (const BoundaryPiece& piece : buffer.pieces) {
       std::span<const Corner> corners =
           std::span(buffer.corners).subspan(piece.first_corner, piece.corner_count);
+      std::uint64_t share = piece.share;
       if (is_whole(shares, piece)) {
         if (done[piece.facet]) continue;
         done[piece.facet] = true;
         const SceneFacet& facet = scene.facets[piece.facet];
         corners = std::span(scene.corners).subspan(facet.first_corner, facet.corner_count);
+        share = facet_share::whole;
       }
-      restored.add(piece.plane, piece.corner_sense, piece.facet, piece.share, corners);
+      restored.add(piece.plane, piece.corner_sense, piece.facet, share, corners);
     }
     buffer = std::move(restored);
   }
