@@ -600,18 +600,7 @@ class Merger {
     }
     Boundary boundary;
     boundary.edges.reserve(edges.size());
-    boundary.vertices.resize(used.size());
-    boundary.approximate.resize(used.size());
-    in_parallel(threads_, used.size(), [&](std::size_t i) {
-      const Vertex& v = vertices_[used[i]];
-      Point3& point = boundary.vertices[i];
-      point = geometry_.exact_point(v);
-      // An input point's doubles are the nearest ones already.
-      boundary.approximate[i] = v.is_point && std::isfinite(v.error)
-                                    ? std::array{v.x, v.y, v.z}
-                                    : std::array{nearest_double(point.x), nearest_double(point.y),
-                                                 nearest_double(point.z)};
-    });
+    set_positions(used, boundary);
     check();
     for (FaceEdge& edge : edges) {
       edge.from = renumbered[edge.from];
@@ -628,6 +617,30 @@ class Merger {
     boundary.statistics.pieces = statistics_pieces_;
     boundary.statistics.tiers = statistics_;
     return boundary;
+  }
+
+  // Input points are copied; meeting points, which take long, are computed in parallel.
+  void set_positions(const std::vector<VertexNumber>& used, Boundary& boundary) const {
+    boundary.vertices.reserve(used.size());
+    for (const VertexNumber number : used) {
+      const Vertex& v = vertices_[number];
+      if (v.is_point) {
+        boundary.vertices.push_back(geometry_.point(v.point));
+      } else {
+        boundary.vertices.emplace_back();
+      }
+    }
+    boundary.approximate.resize(used.size());
+    in_parallel(threads_, used.size(), [&](std::size_t i) {
+      const Vertex& v = vertices_[used[i]];
+      Point3& point = boundary.vertices[i];
+      if (!v.is_point) point = geometry_.exact_point(v);
+      // An input point's doubles are the nearest ones already.
+      boundary.approximate[i] = v.is_point && std::isfinite(v.error)
+                                    ? std::array{v.x, v.y, v.z}
+                                    : std::array{nearest_double(point.x), nearest_double(point.y),
+                                                 nearest_double(point.z)};
+    });
   }
 
   // The vertices in lexicographic order; doubles decide nearly always.

@@ -56,16 +56,10 @@ class SurfaceSummation {
     for (const Integer& a : face_area_) {
       mpz_addmul(square_.get_mpz_t(), a.get_mpz_t(), a.get_mpz_t());
     }
-    mpz_sqrtrem(root_.get_mpz_t(), rest_.get_mpz_t(), square_.get_mpz_t());
-    if (sgn(rest_) == 0) {
-      root_ <<= area_shift_;
-    } else {
-      ++cut_roots_;
-      if (area_shift_ != 0) {
-        square_ <<= 2 * area_shift_;
-        mpz_sqrt(root_.get_mpz_t(), square_.get_mpz_t());
-      }
-    }
+    // That a number is no square is nearly always seen without its root.
+    if (mpz_perfect_square_p(square_.get_mpz_t()) == 0) ++cut_roots_;
+    square_ <<= 2 * area_shift_;
+    mpz_sqrt(root_.get_mpz_t(), square_.get_mpz_t());
     sums_.two_areas.value += root_;
   }
 
@@ -159,7 +153,6 @@ class SurfaceSummation {
   Integer loop_volume_;
   Integer square_;
   Integer root_;
-  Integer rest_;
 };
 
 Enclosure scaled(const Bounded& sum, const Rational& factor) {
