@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -64,6 +65,28 @@ Point3 aim(const std::vector<Point3>& corners, std::size_t attempt) {
           rational_of(target[2] / total)};
 }
 
+// The facets, those whose boxes' middles are near the point first: a short segment meets few
+// others.
+std::vector<std::size_t> by_distance(const Point3& point, const std::vector<DoubleBox>& bounds) {
+  const std::array<double, 3> from{point.x.get_d(), point.y.get_d(), point.z.get_d()};
+  std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(bounds.size());
+  for (std::size_t f = 0; f < bounds.size(); ++f) {
+    double squared = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double middle = bounds[f].lower[i] + (bounds[f].upper[i] - bounds[f].lower[i]) / 2;
+      squared += (middle - from[i]) * (middle - from[i]);
+    }
+    // Not a number, beyond the range of doubles: last.
+    order.emplace_back(squared >= 0 ? squared : std::numeric_limits<double>::infinity(), f);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> result;
+  result.reserve(order.size());
+  for (const auto& [squared, f] : order) result.push_back(f);
+  return result;
+}
+
 struct Crossing {
   Rational parameter;
   Membership before;  // where the segment comes from
@@ -83,16 +106,20 @@ Membership nearest_crossing(const Point3& point, std::size_t facet_count,
                             const std::function<DoubleBox(std::size_t)>& bounds_of,
                             const std::function<std::vector<Point3>(std::size_t)>& corners_of) {
   constexpr std::size_t rounds = 8;
+  std::vector<DoubleBox> bounds;
+  bounds.reserve(facet_count);
+  for (std::size_t f = 0; f < facet_count; ++f) bounds.push_back(bounds_of(f));
+  const std::vector<std::size_t> targets = by_distance(point, bounds);
   for (std::size_t attempt = 0; attempt < rounds * facet_count; ++attempt) {
     // Beyond the target nothing matters if the target is behind the first crossing; going on a
     // little makes sure of that although the target is rounded.
-    const Point3 target = aim(corners_of(attempt % facet_count), attempt / facet_count);
+    const Point3 target = aim(corners_of(targets[attempt % facet_count]), attempt / facet_count);
     const Vector3 direction = Rational(9, 8) * (target - point);
     const DoubleBox reach = join(box_of(point), box_of(point + direction));
     std::optional<Crossing> nearest;
     bool degenerate = false;
     for (std::size_t f = 0; f < facet_count && !degenerate; ++f) {
-      if (!meet(bounds_of(f), reach)) continue;
+      if (!meet(bounds[f], reach)) continue;
       const std::vector<Point3> corners = corners_of(f);
       const Vector3 normal = normal_of(corners);
       const Rational height = dot(normal, point - corners[0]);
