@@ -6,7 +6,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(pc_gmpxx REQUIRED IMPORTED_TARGET gmpxx)
 pkg_check_modules(pc_mpfr REQUIRED IMPORTED_TARGET mpfr)
 find_package(TBB REQUIRED)
-find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+pkg_check_modules(pc_nettle REQUIRED IMPORTED_TARGET nettle)
 find_package(Boost REQUIRED)
 find_package(Threads REQUIRED)
 

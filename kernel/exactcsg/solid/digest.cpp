@@ -1,53 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 // The digest of a boundary. docs/digest.md describes the text that is hashed.
-#include <openssl/evp.h>
+#include <nettle/sha2.h>
 
 #include <algorithm>
 #include <bit>
 #include <charconv>
 #include <functional>
-#include <memory>
 #include <numeric>
 #include <string>
 #include <string_view>
 
 #include "exactcsg/solid/boundary.hpp"
 #include "exactcsg/solid/bucket_sort.hpp"
-#include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
 
 namespace {
 
+// Of nettle: OpenSSL's would take longer to set up than a small solid takes to evaluate.
 class Sha256 {
  public:
-  Sha256() : context_(EVP_MD_CTX_new()) {
-    check(context_ != nullptr && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
-  }
+  Sha256() { sha256_init(&context_); }
   void add(std::string_view text) {
-    check(EVP_DigestUpdate(context_.get(), text.data(), text.size()) == 1);
+    sha256_update(&context_, text.size(), reinterpret_cast<const std::uint8_t*>(text.data()));
   }
   std::string hexadecimal() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
-    unsigned length = 0;
-    check(EVP_DigestFinal_ex(context_.get(), bytes.data(), &length) == 1);
+    std::array<std::uint8_t, SHA256_DIGEST_SIZE> bytes{};
+    sha256_digest(&context_, bytes.size(), bytes.data());
     std::string text;
-    for (unsigned i = 0; i < length; ++i) {
+    for (const std::uint8_t byte : bytes) {
       constexpr char digits[] = "0123456789abcdef";
-      text += digits[bytes[i] >> 4U];
-      text += digits[bytes[i] & 15U];
+      text += digits[byte >> 4U];
+      text += digits[byte & 15U];
     }
     return text;
   }
 
  private:
-  static void check(bool ok) {
-    if (!ok) throw Error(ErrorId::InternalError, {"SHA-256 of OpenSSL failed", ""});
-  }
-  struct Free {
-    void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
-  };
-  std::unique_ptr<EVP_MD_CTX, Free> context_;
+  sha256_ctx context_{};
 };
 
 // The text that is hashed, handed on in pieces: one buffer, no string a number.
