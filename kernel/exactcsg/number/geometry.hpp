@@ -32,6 +32,10 @@ namespace exactcsg {
 
 enum class Axis : unsigned char { X, Y, Z };
 
+inline const Rational& coordinate(const Point3& p, Axis axis) {
+  return coordinate(p, static_cast<std::size_t>(axis));
+}
+
 enum class PointId : std::uint32_t {};
 
 // A plane without orientation beyond that of its own stored normal: a plane of the table, or a wall

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "exactcsg/number/common_denominator.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -15,26 +16,6 @@ namespace {
 std::string text_of(const Homogeneous<Integer>& p) {
   const Point3 point = point_of(p);
   return '(' + to_text(point.x) + ", " + to_text(point.y) + ", " + to_text(point.z) + ')';
-}
-
-// Mostly one of the two divides the other, which is seen faster than a greatest common divisor.
-void make_multiple(Integer& common, const Integer& denominator) {
-  if (mpz_divisible_p(common.get_mpz_t(), denominator.get_mpz_t()) != 0) return;
-  if (mpz_divisible_p(denominator.get_mpz_t(), common.get_mpz_t()) != 0) {
-    common = denominator;
-  } else {
-    mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), denominator.get_mpz_t());
-  }
-}
-
-// value * denominator. REQUIRES that is an integer
-void set_scaled(Integer& result, const Rational& value, const Integer& denominator) {
-  if (value.get_den() == denominator) {
-    result = value.get_num();
-    return;
-  }
-  mpz_divexact(result.get_mpz_t(), denominator.get_mpz_t(), value.get_den_mpz_t());
-  mpz_mul(result.get_mpz_t(), result.get_mpz_t(), value.get_num_mpz_t());
 }
 
 // What plane_through computes with: kept by each thread, since allocating took longer than
@@ -82,15 +63,6 @@ void halve_while_even(std::array<Integer, 3>& vector) {
   for (Integer& c : vector) mpz_tdiv_q_2exp(c.get_mpz_t(), c.get_mpz_t(), zeros);
 }
 
-void set_normal(PlaneScratch& s) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    mpz_mul(s.normal[i].get_mpz_t(), s.u[j].get_mpz_t(), s.v[k].get_mpz_t());
-    mpz_submul(s.normal[i].get_mpz_t(), s.u[k].get_mpz_t(), s.v[j].get_mpz_t());
-  }
-}
-
 void make_normal_coprime(PlaneScratch& s) {
   mpz_gcd(s.factor.get_mpz_t(), s.normal[0].get_mpz_t(), s.normal[1].get_mpz_t());
   if (s.factor != 1) {
@@ -134,7 +106,7 @@ Plane plane_through(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q
   }
   halve_while_even(s.u);
   halve_while_even(s.v);
-  set_normal(s);
+  set_cross(s.normal, s.u, s.v);
   if (s.normal[0] == 0 && s.normal[1] == 0 && s.normal[2] == 0) {
     throw Error(ErrorId::DegenerateFacet,
                 {text_of(p) + ", " + text_of(q) + " and " + text_of(r) + " are collinear",

@@ -15,10 +15,6 @@ double coordinate(const ApproximatePoint& p, Axis axis) {
   return axis == Axis::X ? p.x : axis == Axis::Y ? p.y : p.z;
 }
 
-const Rational& coordinate(const Point3& p, Axis axis) {
-  return axis == Axis::X ? p.x : axis == Axis::Y ? p.y : p.z;
-}
-
 bool share_coordinate(const PointTable& points, const std::array<PointId, 3>& through, Axis axis) {
   const double first = coordinate(points.approximate(through[0]), axis);
   for (const PointId id : {through[1], through[2]}) {

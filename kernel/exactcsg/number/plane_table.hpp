@@ -59,10 +59,7 @@ class PlaneTable {
   const Plane& exact(const HomogeneousOfPoint& homogeneous, std::uint32_t i) const {
     const PlaneSource& source = sources_[i];
     if (source.exact) return *source.exact;
-    const auto& points = source.points;
-    return computed_.get(i, [&] {
-      return plane_through(homogeneous(points[0]), homogeneous(points[1]), homogeneous(points[2]));
-    });
+    return computed_.get(i, [&] { return compute(homogeneous, source); });
   }
 
   // The same for one who will not ask again: what is not known yet is not kept.
@@ -71,11 +68,16 @@ class PlaneTable {
     const PlaneSource& source = sources_[i];
     if (source.exact) return *source.exact;
     if (const Plane* known = computed_.known(i)) return *known;
+    return compute(homogeneous, source);
+  }
+
+ private:
+  template <class HomogeneousOfPoint>
+  static Plane compute(const HomogeneousOfPoint& homogeneous, const PlaneSource& source) {
     const auto& [p, q, r] = source.points;
     return plane_through(homogeneous(p), homogeneous(q), homogeneous(r));
   }
 
- private:
   std::vector<ApproximatePlane> approximate_;
   std::vector<PlaneSource> sources_;
   LazyTable<Plane> computed_;

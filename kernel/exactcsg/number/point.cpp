@@ -50,6 +50,16 @@ Vector3 cross(const Vector3& u, const Vector3& v) {
   return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
 }
 
+void set_cross(std::array<Integer, 3>& result, const std::array<Integer, 3>& u,
+               const std::array<Integer, 3>& v) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    mpz_mul(result[i].get_mpz_t(), u[j].get_mpz_t(), v[k].get_mpz_t());
+    mpz_submul(result[i].get_mpz_t(), u[k].get_mpz_t(), v[j].get_mpz_t());
+  }
+}
+
 AffineMap AffineMap::identity() {
   AffineMap map;
   for (std::size_t i = 0; i < 3; ++i) map.m[i][i] = 1;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <span>
 
 #include "exactcsg/number/exact.hpp"
@@ -21,6 +22,14 @@ struct Point3 {
   friend bool operator==(const Point3&, const Point3&) = default;
 };
 
+// Along axis 0, 1 or 2: x, y or z.
+inline const Rational& coordinate(const Point3& p, std::size_t axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+inline const Rational& coordinate(const Vector3& v, std::size_t axis) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
 // Lexicographic by x, y, z.
 std::strong_ordering compare(const Point3& p, const Point3& q);
 inline bool operator<(const Point3& p, const Point3& q) { return compare(p, q) < 0; }
@@ -30,6 +39,10 @@ Point3 operator+(const Point3& p, const Vector3& v);
 Vector3 operator*(const Rational& s, const Vector3& v);
 Rational dot(const Vector3& u, const Vector3& v);
 Vector3 cross(const Vector3& u, const Vector3& v);
+// The same of integers, without allocating where `result` has room already.
+// REQUIRES that result is neither u nor v
+void set_cross(std::array<Integer, 3>& result, const std::array<Integer, 3>& u,
+               const std::array<Integer, 3>& v);
 
 // x -> M x + t, row by row: m[i] = {M_i0, M_i1, M_i2, t_i}.
 struct AffineMap {

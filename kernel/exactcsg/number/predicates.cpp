@@ -202,10 +202,6 @@ Sign filtered_compare(const Vertex& v, const Vertex& w, Axis axis) {
   return difference > bound ? Sign::Positive : difference < -bound ? Sign::Negative : Sign::Zero;
 }
 
-const Rational& coordinate(const Point3& p, Axis axis) {
-  return axis == Axis::X ? p.x : axis == Axis::Y ? p.y : p.z;
-}
-
 // Input points have their coordinates at hand: equal ones, which are frequent, are equal limb by
 // limb.
 Decision compare_points(const Data& data, const Vertex& v, const Vertex& w, Axis axis) {

@@ -249,19 +249,14 @@ class Merger {
   // Sorted by line, then by oriented plane, then by number.
   std::vector<std::uint32_t> edges_by_line(const std::vector<PieceEdge>& edges,
                                            const std::vector<LineNumber>& line_of_edge) const {
-    std::vector<std::uint32_t> begin(lines_.size() + 1, 0);
-    for (const LineNumber line : line_of_edge) ++begin[line + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<std::uint32_t> order(edges.size());
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::uint32_t i = 0; i < edges.size(); ++i) order[next[line_of_edge[i]]++] = i;
-    for (LineNumber line = 0; line < lines_.size(); ++line) {
-      std::sort(order.begin() + begin[line], order.begin() + begin[line + 1],
-                [&](std::uint32_t a, std::uint32_t b) {
-                  if (edges[a].plane != edges[b].plane) return edges[a].plane < edges[b].plane;
-                  return a < b;
-                });
-    }
+    std::iota(order.begin(), order.end(), 0U);
+    sort_in_buckets(
+        order, lines_.size(), [&](std::uint32_t i) { return line_of_edge[i]; },
+        [&](std::uint32_t a, std::uint32_t b) {
+          if (edges[a].plane != edges[b].plane) return edges[a].plane < edges[b].plane;
+          return a < b;
+        });
     return order;
   }
 

@@ -44,10 +44,6 @@ Sums<N> add_up(std::size_t begin, std::size_t end, std::size_t bit_limit, const 
   return sum;
 }
 
-const Rational& coordinate_of(const Vector3& v, std::size_t i) {
-  return i == 0 ? v.x : i == 1 ? v.y : v.z;
-}
-
 // A plane with its coefficients by coordinate and the constant with respect to the reference.
 struct LocalPlane {
   std::array<const Integer*, 3> normal;
@@ -81,11 +77,10 @@ Sums<N> projected_sums(const Boundary& boundary, const BoundaryFace& face, std::
       const Vector3 p = boundary.vertices[loop[i]] - o;
       const Vector3 q = boundary.vertices[loop[(i + 1) % loop.size()]] - o;
       Sums<N> term;
-      term[0] =
-          coordinate_of(p, u) * coordinate_of(q, v) - coordinate_of(p, v) * coordinate_of(q, u);
+      term[0] = coordinate(p, u) * coordinate(q, v) - coordinate(p, v) * coordinate(q, u);
       if constexpr (N == 3) {
-        term[1] = term[0] * (coordinate_of(p, u) + coordinate_of(q, u));
-        term[2] = term[0] * (coordinate_of(p, v) + coordinate_of(q, v));
+        term[1] = term[0] * (coordinate(p, u) + coordinate(q, u));
+        term[2] = term[0] * (coordinate(p, v) + coordinate(q, v));
       }
       return term;
     });

@@ -71,7 +71,7 @@ class SurfaceSummation {
     set_difference(u_, vertices_.coordinates[loop[1]], first);
     for (std::size_t k = 2; k < loop.size(); ++k) {
       set_difference(v_, vertices_.coordinates[loop[k]], first);
-      set_cross();
+      set_cross(cross_, u_, v_);
       set_determinant(first);
       for (std::size_t i = 0; i < 3; ++i) face_area_[i] += cross_[i];
       loop_volume_ += determinant_;
@@ -85,15 +85,6 @@ class SurfaceSummation {
   static void set_difference(Coordinates& result, const Coordinates& p, const Coordinates& q) {
     for (std::size_t i = 0; i < 3; ++i) {
       mpz_sub(result[i].get_mpz_t(), p[i].get_mpz_t(), q[i].get_mpz_t());
-    }
-  }
-
-  void set_cross() {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      const std::size_t k = (i + 2) % 3;
-      mpz_mul(cross_[i].get_mpz_t(), u_[j].get_mpz_t(), v_[k].get_mpz_t());
-      mpz_submul(cross_[i].get_mpz_t(), u_[k].get_mpz_t(), v_[j].get_mpz_t());
     }
   }
 

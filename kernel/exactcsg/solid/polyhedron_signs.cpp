@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "exactcsg/number/common_denominator.hpp"
+
 namespace exactcsg {
 
 namespace {
@@ -16,26 +18,7 @@ constexpr double ulp = std::numeric_limits<double>::epsilon();  // 2^-52, twice 
 // Outside of this range of differences a product of three could leave the normal doubles.
 constexpr double smallest_difference = 1e-70;
 constexpr double largest_difference = 1e70;
-constexpr std::size_t common_denominator_bits = 512;
 constexpr std::size_t small_bits = 40;
-
-const Rational& coordinate_of(const Point3& p, CoordinateIndex i) {
-  return i == 0 ? p.x : i == 1 ? p.y : p.z;
-}
-
-// The least common denominator of all coordinates, unless it is long.
-std::optional<Integer> common_denominator(std::span<const Point3> points) {
-  Integer common = 1;
-  for (const Point3& p : points) {
-    for (CoordinateIndex i = 0; i < 3; ++i) {
-      const Integer& denominator = coordinate_of(p, i).get_den();
-      if (mpz_divisible_p(common.get_mpz_t(), denominator.get_mpz_t()) != 0) continue;
-      common = lcm(common, denominator);
-      if (mpz_sizeinbase(common.get_mpz_t(), 2) > common_denominator_bits) return std::nullopt;
-    }
-  }
-  return common;
-}
 
 Sign sign_of_wide(Wide value) {
   return value > 0 ? Sign::Positive : value < 0 ? Sign::Negative : Sign::Zero;
@@ -61,7 +44,7 @@ PolyhedronSigns::PolyhedronSigns(std::span<const Point3> points) {
   for (const Point3& p : points) {
     std::array<double, 3> rounded{};
     for (CoordinateIndex i = 0; i < 3; ++i) {
-      const Rational& value = coordinate_of(p, i);
+      const Rational& value = coordinate(p, i);
       rounded[i] = nearest_double(value);
       largest = std::max(largest, std::abs(rounded[i]));
       exactly_doubles = exactly_doubles && std::isfinite(rounded[i]) && rounded[i] == value;
@@ -72,7 +55,7 @@ PolyhedronSigns::PolyhedronSigns(std::span<const Point3> points) {
 
   point_error_ = coordinate_error_;
 
-  const std::optional<Integer> common = common_denominator(points);
+  const std::optional<Integer> common = short_common_denominator(points);
   exact_.reserve(points.size());
   weight_.reserve(points.size());
   bool all_small = common.has_value();
@@ -85,8 +68,7 @@ PolyhedronSigns::PolyhedronSigns(std::span<const Point3> points) {
     const Integer& factor = common ? *common : own;
     Exact scaled;
     for (CoordinateIndex i = 0; i < 3; ++i) {
-      const Rational& value = coordinate_of(p, i);
-      scaled[i] = value.get_num() * (factor / value.get_den());
+      set_scaled(scaled[i], coordinate(p, i), factor);
       all_small = all_small && mpz_sizeinbase(scaled[i].get_mpz_t(), 2) <= small_bits;
     }
     append(scaled, own);

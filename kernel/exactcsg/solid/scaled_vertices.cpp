@@ -4,28 +4,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "exactcsg/number/common_denominator.hpp"
+
 namespace exactcsg {
 
 namespace {
-
-constexpr std::size_t common_denominator_bits = 512;
-
-const Rational& coordinate_of(const Point3& p, std::size_t i) {
-  return i == 0 ? p.x : i == 1 ? p.y : p.z;
-}
-
-std::optional<Integer> common_denominator(const std::vector<Point3>& points) {
-  Integer common = 1;
-  for (const Point3& p : points) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Integer& denominator = coordinate_of(p, i).get_den();
-      if (mpz_divisible_p(common.get_mpz_t(), denominator.get_mpz_t()) != 0) continue;
-      common = lcm(common, denominator);
-      if (mpz_sizeinbase(common.get_mpz_t(), 2) > common_denominator_bits) return std::nullopt;
-    }
-  }
-  return common;
-}
 
 // An exponent e with every extent of the vertices below 2^e, and not much more.
 long extent_exponent(const Boundary& boundary) {
@@ -88,7 +71,7 @@ CoordinateRange coordinate_range(const Boundary& boundary, std::size_t axis) {
     if (has_doubles && boundary.approximate[v][axis] != boundary.approximate[w][axis]) {
       return boundary.approximate[v][axis] < boundary.approximate[w][axis];
     }
-    return coordinate_of(boundary.vertices[v], axis) < coordinate_of(boundary.vertices[w], axis);
+    return coordinate(boundary.vertices[v], axis) < coordinate(boundary.vertices[w], axis);
   };
   std::size_t lowest = 0;
   std::size_t highest = 0;
@@ -96,12 +79,12 @@ CoordinateRange coordinate_range(const Boundary& boundary, std::size_t axis) {
     if (less(v, lowest)) lowest = v;
     if (less(highest, v)) highest = v;
   }
-  return {coordinate_of(boundary.vertices[lowest], axis),
-          coordinate_of(boundary.vertices[highest], axis)};
+  return {coordinate(boundary.vertices[lowest], axis),
+          coordinate(boundary.vertices[highest], axis)};
 }
 
 bool has_short_common_denominator(const Boundary& boundary) {
-  return common_denominator(boundary.vertices).has_value();
+  return short_common_denominator(boundary.vertices).has_value();
 }
 
 ScaledVertices scale_vertices(const Boundary& boundary, int bits) {
@@ -112,15 +95,12 @@ ScaledVertices scale_vertices(const Boundary& boundary, int bits) {
     return s;
   }
   s.coordinates.resize(boundary.vertices.size());
-  if (const std::optional<Integer> common = common_denominator(boundary.vertices)) {
+  if (const std::optional<Integer> common = short_common_denominator(boundary.vertices)) {
     s.exact = true;
     s.unit = Rational(Integer(1), *common);
-    Integer factor;
     for (std::size_t v = 0; v < s.coordinates.size(); ++v) {
       for (std::size_t i = 0; i < 3; ++i) {
-        const Rational& value = coordinate_of(boundary.vertices[v], i);
-        mpz_divexact(factor.get_mpz_t(), common->get_mpz_t(), value.get_den_mpz_t());
-        mpz_mul(s.coordinates[v][i].get_mpz_t(), value.get_num_mpz_t(), factor.get_mpz_t());
+        set_scaled(s.coordinates[v][i], coordinate(boundary.vertices[v], i), *common);
       }
     }
   } else {
@@ -129,7 +109,7 @@ ScaledVertices scale_vertices(const Boundary& boundary, int bits) {
     Integer scratch;
     for (std::size_t v = 0; v < s.coordinates.size(); ++v) {
       for (std::size_t i = 0; i < 3; ++i) {
-        floor_shifted(s.coordinates[v][i], scratch, coordinate_of(boundary.vertices[v], i), shift);
+        floor_shifted(s.coordinates[v][i], scratch, coordinate(boundary.vertices[v], i), shift);
       }
     }
   }

@@ -35,7 +35,7 @@ struct CoordinateRange {
 // REQUIRES a vertex. COST: O(vertices) comparisons of doubles
 CoordinateRange coordinate_range(const Boundary& boundary, std::size_t axis);
 
-// Only exactly; false if the common denominator is longer than 512 bits.
+// Whether scale_vertices is exact, without a grid.
 bool has_short_common_denominator(const Boundary& boundary);
 
 }  // namespace exactcsg

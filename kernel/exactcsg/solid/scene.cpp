@@ -7,9 +7,9 @@
 #include <optional>
 #include <unordered_map>
 
-#include "exactcsg/number/orientation.hpp"
 #include "exactcsg/solid/bucket_sort.hpp"
 #include "exactcsg/solid/polygon.hpp"
+#include "exactcsg/solid/polyhedron_signs.hpp"
 
 namespace exactcsg {
 
@@ -60,31 +60,6 @@ std::array<std::uint32_t, 3> spanning_triple(const Polyhedron& polyhedron,
     }
   }
   return {facet[best[0]], facet[best[1]], facet[best[2]]};
-}
-
-// The doubles are the true coordinates, rounded by at most one unit in the last place, hence off by
-// 2^-52 M with M the largest magnitude, and differences of them by 2^-50 M, their own rounding
-// included. The determinant of three differences of at most L has six products of three, each off
-// by less than 3 L^2 2^-50 M (1 + 2^-49), and rounding adds less than 2^-48 L^3 to their sum.
-bool surely_not_coplanar(const Double3& p, const Double3& q, const Double3& r, const Double3& s) {
-  double magnitude = 0;
-  double length = 0;
-  std::array<Double3, 3> d{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    magnitude = std::max(magnitude, std::abs(p[i]));
-    std::size_t row = 0;
-    for (const Double3* end : {&q, &r, &s}) {
-      magnitude = std::max(magnitude, std::abs((*end)[i]));
-      d[row][i] = (*end)[i] - p[i];
-      length = std::max(length, std::abs(d[row][i]));
-      ++row;
-    }
-  }
-  const double determinant = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) +
-                             d[0][1] * (d[1][2] * d[2][0] - d[1][0] * d[2][2]) +
-                             d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
-  const double bound = 0x1p-44 * length * length * (magnitude + length) + 0x1p-1000;
-  return std::abs(determinant) > bound && bound < 0x1p1000;
 }
 
 // Which facet walks a directed edge. COST: O(n log n) to build, O(log n) to ask.
@@ -217,6 +192,8 @@ class SceneBuilder {
       for (const std::uint32_t v : facet) builder_.add_incidence(points[v], planes.back());
     }
     const EdgeOwners owners(polyhedron);
+    std::optional<const PolyhedronSigns> signs;  // neighbours of a convex polytope are not coplanar
+    if (!convex) signs.emplace(polyhedron.vertices);
     for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
       const Facet& facet = polyhedron.facets[f];
       facets_.push_back({index, planes[f], corners_.size(), facet.size()});
@@ -225,26 +202,17 @@ class SceneBuilder {
         const std::uint32_t from = facet[i];
         const std::uint32_t to = facet[(i + 1) % facet.size()];
         const std::uint32_t neighbour = owners.of(to, from);
-        const bool flat =
-            !convex && coplanar(polyhedron, near, triples[f], polyhedron.facets[neighbour]);
+        const bool flat = signs && coplanar(*signs, triples[f], polyhedron.facets[neighbour]);
         corners_.push_back({points[from], flat ? plane_across_side(polyhedron, triples[f], from, to)
                                                : planes[neighbour]});
       }
     }
   }
 
-  static bool coplanar(const Polyhedron& polyhedron, const std::vector<Double3>& near,
-                       const std::array<std::uint32_t, 3>& triple, const Facet& other) {
-    const auto& vertices = polyhedron.vertices;
-    const auto& [p, q, r] = triple;
-    if (std::any_of(other.begin(), other.end(), [&](std::uint32_t corner) {
-          return surely_not_coplanar(near[p], near[q], near[r], near[corner]);
-        })) {
-      return false;
-    }
+  static bool coplanar(const PolyhedronSigns& signs, const std::array<std::uint32_t, 3>& triple,
+                       const Facet& other) {
     return std::all_of(other.begin(), other.end(), [&](std::uint32_t corner) {
-      return orientation(vertices[triple[0]], vertices[triple[1]], vertices[triple[2]],
-                         vertices[corner]) == Sign::Zero;
+      return signs.orientation(triple[0], triple[1], triple[2], corner) == Sign::Zero;
     });
   }
 

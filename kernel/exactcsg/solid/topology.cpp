@@ -62,10 +62,6 @@ Surface sides_of(const Boundary& boundary) {
   return s;
 }
 
-const Rational& coordinate_of(const Point3& p, std::size_t i) {
-  return i == 0 ? p.x : i == 1 ? p.y : p.z;
-}
-
 // Sorts directions in a plane counter-clockwise from the first one on.
 // sine(i, j) and cosine(i, j): the signs of those of the angle from i to j.
 template <class Sine, class Cosine>
@@ -248,8 +244,8 @@ class Twins {
     const Point3& p = boundary_.vertices[low];
     const Point3& q = boundary_.vertices[high];
     std::size_t k = 0;
-    while (coordinate_of(p, k) == coordinate_of(q, k)) ++k;
-    const Sign direction = sign_of(cmp(coordinate_of(q, k), coordinate_of(p, k)));
+    while (coordinate(p, k) == coordinate(q, k)) ++k;
+    const Sign direction = sign_of(cmp(coordinate(q, k), coordinate(p, k)));
 
     std::vector<std::array<Integer, 3>> normals;
     for (const Index s : group) {

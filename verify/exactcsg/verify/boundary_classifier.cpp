@@ -36,8 +36,6 @@ struct Rectangle {
 
 enum class Place { Outside, Border, Inside };
 
-Rational coordinate(const Point3& p, std::size_t k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; }
-
 // Where a point of the face's plane lies in the face, in the projection along axis `drop`.
 Place locate(const Boundary& b, const BoundaryFace& face, const Point3& p, std::size_t drop) {
   const std::size_t u = (drop + 1) % 3;

@@ -55,22 +55,12 @@ class Membrane {
     return false;
   }
 
-  // In the projection along the largest coordinate of the normal.
   bool inside(const PlainVector& p) const {
-    std::size_t drop = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-      if (std::fabs(area_vector_[k]) > std::fabs(area_vector_[drop])) drop = k;
-    }
-    const std::size_t u = (drop + 1) % 3;
-    const std::size_t v = (drop + 2) % 3;
+    const std::size_t drop = longest_axis(area_vector_);
     bool result = false;
     for (const auto& outline : outlines_) {
-      for (std::size_t i = 0; i < outline.size(); ++i) {
-        const PlainVector& a = outline[i];
-        const PlainVector& b = outline[(i + 1) % outline.size()];
-        if ((a[v] > p[v]) == (b[v] > p[v])) continue;
-        if (p[u] < a[u] + (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v])) result = !result;
-      }
+      result ^= crosses_oddly(
+          drop, p, outline.size(), [&](std::size_t i) -> const auto& { return outline[i]; });
     }
     return result;
   }

@@ -22,6 +22,8 @@ namespace {
 
 constexpr int working_bits = 160;
 constexpr int shown_digits = 12;
+// Beyond so many, the file is another solid: a place is not searched for each.
+constexpr std::size_t enough = 2000;
 
 std::string short_number(double value) { return fmt::format("{:.3g}", value); }
 
@@ -148,20 +150,12 @@ bool near_face(const Ours& ours, const BoundaryFace& face, const PlainVector& p,
   const PlainVector normal = (1 / size) * raw;
   const PlainVector& origin = ours.positions[face.loops.front().front()];
   if (std::fabs(dot(normal, p - origin)) > reach) return false;
-  std::size_t drop = 0;
-  for (std::size_t k = 1; k < 3; ++k) {
-    if (std::fabs(normal[k]) > std::fabs(normal[drop])) drop = k;
-  }
-  const std::size_t u = (drop + 1) % 3;
-  const std::size_t v = (drop + 2) % 3;
+  const std::size_t drop = longest_axis(normal);
   bool inside = false;
   for (const auto& loop : face.loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const PlainVector& a = ours.positions[loop[i]];
-      const PlainVector& b = ours.positions[loop[(i + 1) % loop.size()]];
-      if ((a[v] > p[v]) == (b[v] > p[v])) continue;
-      if (p[u] < a[u] + (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v])) inside = !inside;
-    }
+    inside ^= crosses_oddly(
+        drop, p,
+        loop.size(), [&](std::size_t i) -> const auto& { return ours.positions[loop[i]]; });
   }
   return inside;
 }
@@ -288,7 +282,6 @@ std::size_t facets_around(const Ours& ours, const PlainVector& a, const PlainVec
 Check check_manifold(const std::string& label, const Ours& ours, const WeldedMesh& mesh,
                      const Matching& matching) {
   Check check = named(label, "manifold");
-  constexpr std::size_t enough = 2000;  // beyond, the file is another solid: do not search for each
   std::size_t crowded = 0;
   std::size_t allowed = 0;
   for (const auto& [edge, use] : mesh.edges) {
@@ -436,7 +429,6 @@ Check check_vertices(const std::string& label, const Ours& ours, const WeldedMes
   }
   std::set<std::uint32_t> used;
   for (const auto& facet : mesh.facets) used.insert(facet.begin(), facet.end());
-  constexpr std::size_t enough = 2000;  // beyond, the file is another solid: do not search for each
   std::vector<Mismatch> stray;
   std::size_t searched = 0;
   for (const std::uint32_t v : used) {
@@ -601,7 +593,6 @@ Check check_edges(const std::string& label, const Ours& ours, const WeldedMesh& 
           edge_mismatch("edge of the model that the file does not have", ours.from(e), ours.to(e)));
     }
   }
-  constexpr std::size_t enough = 2000;  // beyond, the file is another solid: do not search for each
   std::size_t searched = 0;
   std::vector<Mismatch> stray;
   std::size_t sharp = 0;

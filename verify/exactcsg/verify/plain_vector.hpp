@@ -42,4 +42,30 @@ inline Nearest nearest_on_segment(const PlainVector& a, const PlainVector& b,
   return {s, length(p - (a + s * d))};
 }
 
+// The axis along which a plane with this normal is projected with the least loss.
+inline std::size_t longest_axis(const PlainVector& normal) {
+  std::size_t longest = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (std::fabs(normal[k]) > std::fabs(normal[longest])) longest = k;
+  }
+  return longest;
+}
+
+// Whether a ray from p along axis drop + 1, in the projection along axis `drop`, crosses the
+// outline an odd number of times; summed up over outlines, whether p is between them.
+// `corner(i)`, i < count: the outline's points.
+template <class Corner>
+bool crosses_oddly(std::size_t drop, const PlainVector& p, std::size_t count, Corner corner) {
+  const std::size_t u = (drop + 1) % 3;
+  const std::size_t v = (drop + 2) % 3;
+  bool odd = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const PlainVector& a = corner(i);
+    const PlainVector& b = corner((i + 1) % count);
+    if ((a[v] > p[v]) == (b[v] > p[v])) continue;
+    if (p[u] < a[u] + (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v])) odd = !odd;
+  }
+  return odd;
+}
+
 }  // namespace exactcsg::verify

@@ -17,7 +17,6 @@ namespace {
 
 using Random = std::mt19937_64;
 
-// LAW sampling.1  fewer points of the same seed are a prefix of more.
 // Portable, unlike the distributions of the standard library.
 std::size_t below(Random& random, std::size_t n) { return static_cast<std::size_t>(random() % n); }
 

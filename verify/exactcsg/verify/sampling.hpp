@@ -18,6 +18,7 @@ namespace exactcsg::verify {
 
 // Vertices, midpoints of edges, points of faces, points a little off each of these (by 2^-60 of the
 // size), and random points of the bounding box. The same for the same seed.
+// LAW sampling.1  fewer points of the same seed are a prefix of more
 std::vector<Point3> sample_points(const Boundary& boundary, std::size_t count, std::uint64_t seed);
 
 // Classification by the tree, by the retained classifier, and by our boundary alone (parity of

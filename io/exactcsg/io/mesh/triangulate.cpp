@@ -16,12 +16,12 @@ namespace {
 
 // Two coordinates in an order that keeps counter-clockwise loops counter-clockwise.
 struct Projection {
-  int first;
-  int second;
+  std::size_t first;
+  std::size_t second;
 };
 
 Projection projection_of(const Plane& plane) {
-  int axis = 0;
+  std::size_t axis = 0;
   const Integer* longest = &plane.a;
   if (mpz_cmpabs(plane.b.get_mpz_t(), longest->get_mpz_t()) > 0) {
     axis = 1;
@@ -33,10 +33,6 @@ Projection projection_of(const Plane& plane) {
   }
   const Projection positive{(axis + 1) % 3, (axis + 2) % 3};
   return sgn(*longest) > 0 ? positive : Projection{positive.second, positive.first};
-}
-
-const Rational& coordinate(const Point3& p, int axis) {
-  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
 class FaceTriangulator {
@@ -114,7 +110,7 @@ class FaceTriangulator {
             (std::abs(x1) + std::abs(y1) + std::abs(x2) + std::abs(y2) + difference_error) +
         10 * unit * (std::abs(x1 * y2) + std::abs(y1 * x2)) + 1e-290;
     if (std::abs(determinant) > bound) return determinant > 0;
-    const auto exact = [&](std::uint32_t v, int axis) -> const Rational& {
+    const auto exact = [&](std::uint32_t v, std::size_t axis) -> const Rational& {
       return coordinate(boundary_.vertices[v], axis);
     };
     const Rational left =

@@ -18,6 +18,7 @@ namespace exactcsg::io::openscad {
 namespace {
 
 using csg::BooleanOperator;
+
 struct GridOutcome {
   std::uint32_t node = 0;
   int dimension = 0;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/number/common_denominator.hpp"
+
+namespace exactcsg {
+
+// Mostly one of the two divides the other, which is seen faster than a greatest common divisor.
+void make_multiple(Integer& common, const Integer& denominator) {
+  if (mpz_divisible_p(common.get_mpz_t(), denominator.get_mpz_t()) != 0) return;
+  if (mpz_divisible_p(denominator.get_mpz_t(), common.get_mpz_t()) != 0) {
+    common = denominator;
+  } else {
+    mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), denominator.get_mpz_t());
+  }
+}
+
+void set_scaled(Integer& result, const Rational& value, const Integer& denominator) {
+  if (value.get_den() == denominator) {
+    result = value.get_num();
+    return;
+  }
+  mpz_divexact(result.get_mpz_t(), denominator.get_mpz_t(), value.get_den_mpz_t());
+  mpz_mul(result.get_mpz_t(), result.get_mpz_t(), value.get_num_mpz_t());
+}
+
+std::optional<Integer> short_common_denominator(std::span<const Point3> points) {
+  Integer common = 1;
+  for (const Point3& p : points) {
+    for (std::size_t i = 0; i < 3; ++i) make_multiple(common, coordinate(p, i).get_den());
+    if (mpz_sizeinbase(common.get_mpz_t(), 2) > common_denominator_bits) return std::nullopt;
+  }
+  return common;
+}
+
+}  // namespace exactcsg
