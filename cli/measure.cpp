@@ -21,9 +21,12 @@ struct Arguments {
   bool json = false;
 };
 
-// Longer fractions are of no use to a reader of JSON; the decimal has any number of digits.
-constexpr std::size_t longest_exact_text = 1000;
-constexpr std::size_t longest_exact_bits = 3322;  // of a number of 1000 digits
+// Longer fractions are of no use to a reader; the decimal has any number of digits.
+constexpr std::size_t longest_in_json = 1000;
+constexpr std::size_t longest_in_text = 80;
+
+// Of a number of so many digits.
+constexpr std::size_t bits_of(std::size_t digits) { return digits * 3322 / 1000 + 1; }
 
 using Triple = std::array<std::string, 3>;
 
@@ -42,18 +45,20 @@ Triple decimals(const Point3& point, int digits) {
   return {to_decimal(point.x, digits), to_decimal(point.y, digits), to_decimal(point.z, digits)};
 }
 
-Measurement take(Context& context, const io::Model& model, int digits) {
+Measurement take(Context& context, const io::Model& model, const Arguments& arguments) {
+  const int digits = arguments.digits;
+  const std::size_t longest_fraction = arguments.json ? longest_in_json : longest_in_text;
   Measurement result;
   const Boundary boundary = evaluate(model.solid, context.evaluate_options());
   context.progress().begin("measure", 0);
-  result.figures = measure(boundary, digits, longest_exact_bits);
+  result.figures = measure(boundary, digits, bits_of(longest_fraction));
   context.progress().check();
   for (const std::string& figure : result.figures.unproved) {
     context.warn(fmt::format("{}: warning: last digit not proved: {}", model.name, figure));
   }
   if (result.figures.exact_volume) {
     std::string text = to_text(*result.figures.exact_volume);
-    if (text.size() <= longest_exact_text) result.exact_volume = std::move(text);
+    if (text.size() <= longest_fraction) result.exact_volume = std::move(text);
   }
   if (const auto& box = result.figures.bounding_box) {
     result.box = {decimals(box->lower, digits), decimals(box->upper, digits)};
@@ -110,8 +115,7 @@ std::string as_text(const Measurement& m) {
   };
   const auto triple = [](const Triple& t) { return fmt::format("({}, {}, {})", t[0], t[1], t[2]); };
   row("volume", m.figures.volume_decimal);
-  if (m.exact_volume && *m.exact_volume != m.figures.volume_decimal &&
-      m.exact_volume->size() <= 80) {
+  if (m.exact_volume && *m.exact_volume != m.figures.volume_decimal) {
     row("  exactly", *m.exact_volume);
   }
   row("area", m.figures.area_decimal);
@@ -134,7 +138,7 @@ std::string as_text(const Measurement& m) {
 Answer print_measures(Context& context, const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const io::Model model = read(context, arguments.model);
-  Measurement measurement = take(context, model, arguments.digits);
+  Measurement measurement = take(context, model, arguments);
   measurement.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   context.print(arguments.json ? as_json(measurement) : as_text(measurement));

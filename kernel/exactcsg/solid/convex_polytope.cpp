@@ -132,19 +132,12 @@ void check_star(const Polyhedron& polyhedron, PolyhedronSigns& signs,
   }
 }
 
-bool straight(const PolyhedronSigns& signs, Index a, Index b, Index c) {
-  for (CoordinateIndex dropped = 0; dropped < 3; ++dropped) {
-    if (signs.turn(dropped, a, b, c) != Sign::Zero) return false;
-  }
-  return true;
-}
-
 Facet without_straight_vertices(const PolyhedronSigns& signs, const Facet& facet) {
   Facet corners;
   for (std::size_t k = 0; k < facet.size(); ++k) {
     const Index before = corners.empty() ? facet.back() : corners.back();
     const Index after = facet[(k + 1) % facet.size()];
-    if (!straight(signs, before, facet[k], after)) corners.push_back(facet[k]);
+    if (!signs.collinear(before, facet[k], after)) corners.push_back(facet[k]);
   }
   return corners;
 }

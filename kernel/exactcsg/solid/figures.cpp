@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <set>
 
 namespace exactcsg {
 
@@ -25,21 +24,27 @@ class Refinement {
   std::map<int, MeasureEnclosures> known_;
 };
 
-// Below this, an undecided digit is bad luck; above, it is a tie or a zero, and exact sums decide.
-constexpr int patient_bits = 600;
 constexpr int maximal_bits = 5000;
 constexpr std::size_t exact_bits_to_break_ties = 1U << 16U;
 
+using MaybeRational = std::function<std::optional<Rational>()>;
+
+// `by_symmetry` is asked as soon as the digits are not decided, `exactly` after one more try.
 std::string decide(Refinement& refinement, int digits, const std::string& name,
                    const std::function<Enclosure(const MeasureEnclosures&)>& figure,
-                   const std::function<std::optional<Rational>()>& exactly,
+                   const MaybeRational& by_symmetry, const MaybeRational& exactly,
                    std::vector<std::string>& unproved) {
+  const int first_bits = 32 + (digits * 10 + 2) / 3;
   bool tried = false;
-  for (int bits = 32 + (digits * 10 + 2) / 3;; bits *= 2) {
+  for (int bits = first_bits;; bits *= 2) {
     const Enclosure e = figure(refinement.at(bits));
     std::string lower = to_decimal(e.lower, digits);
     if (e.lower == e.upper || lower == to_decimal(e.upper, digits)) return lower;
-    if (bits > std::max(patient_bits, 4 * digits) && !tried) {
+    if (bits == first_bits) {
+      if (const std::optional<Rational> exact = by_symmetry()) return to_decimal(*exact, digits);
+    }
+    // One undecided digit may be bad luck; twice, it is a tie or a zero, and exact sums decide.
+    if (bits > first_bits && !tried) {
       tried = true;
       if (const std::optional<Rational> exact = exactly()) return to_decimal(*exact, digits);
     }
@@ -52,43 +57,69 @@ std::string decide(Refinement& refinement, int digits, const std::string& name,
   }
 }
 
-using Signs = std::array<int, 3>;
+std::optional<Rational> no_symmetry() { return std::nullopt; }
 
-Point3 mirrored(const Point3& p, const Signs& signs) {
-  return {signs[0] * p.x, signs[1] * p.y, signs[2] * p.z};
+// The map that mirrors some coordinates at a point: x -> 2 centre - x.
+struct Mirror {
+  std::array<bool, 3> coordinates{};
+  Point3 twice_centre;
+
+  Point3 operator()(const Point3& p) const {
+    Point3 image = p;
+    if (coordinates[0]) image.x = twice_centre.x - p.x;
+    if (coordinates[1]) image.y = twice_centre.y - p.y;
+    if (coordinates[2]) image.z = twice_centre.z - p.z;
+    return image;
+  }
+  Plane operator()(const Plane& p) const {
+    std::array<Rational, 3> normal{p.a, p.b, p.c};
+    Rational offset = p.d;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!coordinates[i]) continue;
+      offset += normal[i] * coordinate(twice_centre, i);
+      normal[i] = -normal[i];
+    }
+    return make_plane(normal[0], normal[1], normal[2], offset);
+  }
+  bool turns_inside_out() const { return (coordinates[0] != coordinates[1]) != coordinates[2]; }
+};
+
+// The indices of the images in a sorted list, or nullopt if one of them is not there.
+template <class T>
+std::optional<std::vector<std::uint32_t>> image_of(const std::vector<T>& items,
+                                                   const Mirror& mirror) {
+  const auto less = [](const T& p, const T& q) { return compare(p, q) < 0; };
+  if (!std::is_sorted(items.begin(), items.end(), less)) return std::nullopt;
+  std::vector<std::uint32_t> image;
+  image.reserve(items.size());
+  for (const T& item : items) {
+    const T target = mirror(item);
+    const auto at = std::lower_bound(items.begin(), items.end(), target, less);
+    if (at == items.end() || !(*at == target)) return std::nullopt;
+    image.push_back(static_cast<std::uint32_t>(at - items.begin()));
+  }
+  return image;
 }
 
-// The solid is mapped to itself by changing the signs of coordinates: its vertices are, and the
-// sides of its faces with their planes.
-bool symmetric(const Boundary& boundary, const Signs& signs) {
-  const auto less = [](const Point3& p, const Point3& q) { return compare(p, q) < 0; };
-  if (!std::is_sorted(boundary.vertices.begin(), boundary.vertices.end(), less)) return false;
-  std::vector<std::uint32_t> image(boundary.vertices.size());
-  for (std::size_t v = 0; v < image.size(); ++v) {
-    const Point3 target = mirrored(boundary.vertices[v], signs);
-    const auto at =
-        std::lower_bound(boundary.vertices.begin(), boundary.vertices.end(), target, less);
-    if (at == boundary.vertices.end() || !(*at == target)) return false;
-    image[v] = static_cast<std::uint32_t>(at - boundary.vertices.begin());
-  }
-  const auto plane_less = [](const Plane& p, const Plane& q) { return compare(p, q) < 0; };
-  if (!std::is_sorted(boundary.planes.begin(), boundary.planes.end(), plane_less)) return false;
-  const bool mirrors = signs[0] * signs[1] * signs[2] < 0;
+// The mirror maps the solid to itself: its vertices are, and the sides of its faces with their
+// planes.
+bool symmetric(const Boundary& boundary, const Mirror& mirror) {
+  const auto vertices = image_of(boundary.vertices, mirror);
+  if (!vertices) return false;
+  const auto planes = image_of(boundary.planes, mirror);
+  if (!planes) return false;
+  const bool reversed = mirror.turns_inside_out();
   std::vector<std::array<std::uint32_t, 3>> sides;
   std::vector<std::array<std::uint32_t, 3>> images;
   for (const BoundaryFace& face : boundary.faces) {
-    const Plane& p = boundary.planes[face.plane];
-    const Plane target{signs[0] * p.a, signs[1] * p.b, signs[2] * p.c, p.d};
-    const auto at =
-        std::lower_bound(boundary.planes.begin(), boundary.planes.end(), target, plane_less);
-    if (at == boundary.planes.end() || !(*at == target)) return false;
-    const auto plane = static_cast<std::uint32_t>(at - boundary.planes.begin());
     for (const auto& loop : face.loops) {
       for (std::size_t k = 0; k < loop.size(); ++k) {
         const std::uint32_t from = loop[k];
         const std::uint32_t to = loop[(k + 1) % loop.size()];
+        const std::uint32_t tail = (*vertices)[from];
+        const std::uint32_t head = (*vertices)[to];
         sides.push_back({face.plane, from, to});
-        images.push_back({plane, image[mirrors ? to : from], image[mirrors ? from : to]});
+        images.push_back({(*planes)[face.plane], reversed ? head : tail, reversed ? tail : head});
       }
     }
   }
@@ -97,41 +128,51 @@ bool symmetric(const Boundary& boundary, const Signs& signs) {
   return sides == images;
 }
 
-// Coordinates of the centre of mass that a symmetry about the origin proves to be zero.
-std::array<bool, 3> zero_by_symmetry(const Boundary& boundary) {
-  std::array<bool, 3> zero{};
+// Coordinates of the centre of mass that a symmetry about the middle of the bounding box proves.
+std::array<std::optional<Rational>, 3> centroid_by_symmetry(const Boundary& boundary,
+                                                            const BoundingBox& box) {
+  Mirror mirror;
+  mirror.twice_centre = {box.lower.x + box.upper.x, box.lower.y + box.upper.y,
+                         box.lower.z + box.upper.z};
+  std::array<std::optional<Rational>, 3> known;
   for (unsigned pattern = 1; pattern < 8; ++pattern) {
-    Signs signs{};
     bool new_one = false;
     for (std::size_t i = 0; i < 3; ++i) {
-      signs[i] = (pattern >> i & 1U) != 0 ? -1 : 1;
-      new_one = new_one || (signs[i] < 0 && !zero[i]);
+      mirror.coordinates[i] = (pattern >> i & 1U) != 0;
+      new_one = new_one || (mirror.coordinates[i] && !known[i]);
     }
-    if (!new_one || !symmetric(boundary, signs)) continue;
-    for (std::size_t i = 0; i < 3; ++i) zero[i] = zero[i] || signs[i] < 0;
+    if (!new_one || !symmetric(boundary, mirror)) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (mirror.coordinates[i]) known[i] = coordinate(mirror.twice_centre, i) / 2;
+    }
   }
-  return zero;
+  return known;
 }
 
-// Zero is the one value on which enclosures never agree, and symmetric models are common: prove it
-// by symmetry where it can be.
+// Enclosures never agree on a value that is itself a decimal, as zero is, and symmetric models are
+// common: it is proved by symmetry where it can be.
 class CentroidOracle {
  public:
-  explicit CentroidOracle(const Boundary& boundary) : boundary_(boundary) {}
-  std::optional<Rational> coordinate(std::size_t i) {
-    if (!zero_) zero_ = zero_by_symmetry(boundary_);
-    if ((*zero_)[i]) return Rational(0);
+  CentroidOracle(const Boundary& boundary, const BoundingBox& box)
+      : boundary_(boundary), box_(box) {}
+
+  std::optional<Rational> by_symmetry(std::size_t i) {
+    if (!symmetric_) symmetric_ = centroid_by_symmetry(boundary_, box_);
+    return (*symmetric_)[i];
+  }
+  std::optional<Rational> exactly(std::size_t i) {
     if (!tried_) {
       tried_ = true;
       exact_ = exact_centroid(boundary_, exact_bits_to_break_ties);
     }
     if (!exact_) return std::nullopt;
-    return i == 0 ? exact_->x : i == 1 ? exact_->y : exact_->z;
+    return coordinate(*exact_, i);
   }
 
  private:
   const Boundary& boundary_;
-  std::optional<std::array<bool, 3>> zero_;
+  const BoundingBox& box_;
+  std::optional<std::array<std::optional<Rational>, 3>> symmetric_;
   bool tried_ = false;
   std::optional<Point3> exact_;
 };
@@ -151,19 +192,19 @@ MeasuredFigures measure(const Boundary& boundary, int digits, std::size_t exact_
     figures.volume_decimal = to_decimal(*figures.exact_volume, digits);
   } else {
     figures.volume_decimal = decide(
-        refinement, digits, "volume", [](const auto& m) { return m.volume; },
+        refinement, digits, "volume", [](const auto& m) { return m.volume; }, no_symmetry,
         [&] { return exact_volume(boundary, exact_bits_to_break_ties); }, figures.unproved);
   }
   figures.area_decimal = decide(
-      refinement, digits, "area", [](const auto& m) { return m.area; },
+      refinement, digits, "area", [](const auto& m) { return m.area; }, no_symmetry,
       [&] { return exact_area(boundary, exact_bits_to_break_ties); }, figures.unproved);
-  CentroidOracle oracle(boundary);
+  CentroidOracle oracle(boundary, *figures.bounding_box);
   figures.centroid_decimals.emplace();
   for (std::size_t i = 0; i < 3; ++i) {
     (*figures.centroid_decimals)[i] = decide(
         refinement, digits, std::string("centroid ") + "xyz"[i],
-        [i](const auto& m) { return (*m.centroid)[i]; }, [&] { return oracle.coordinate(i); },
-        figures.unproved);
+        [i](const auto& m) { return (*m.centroid)[i]; }, [&] { return oracle.by_symmetry(i); },
+        [&] { return oracle.exactly(i); }, figures.unproved);
   }
   return figures;
 }

@@ -161,11 +161,7 @@ class Pair {
     return false;
   }
   bool straight_from(Index v, Index w, Index x) const {
-    if (x == w) return true;
-    for (CoordinateIndex dropped = 0; dropped < 3; ++dropped) {
-      if (signs_.turn(dropped, v, w, x) != Sign::Zero) return false;
-    }
-    return true;
+    return x == w || signs_.collinear(v, w, x);
   }
 
   bool proper_in_one_plane() const {

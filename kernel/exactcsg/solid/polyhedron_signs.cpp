@@ -132,10 +132,10 @@ PolyhedronSigns::Exact PolyhedronSigns::difference(Index from, Index to) const {
   return d;
 }
 
-Sign PolyhedronSigns::orientation(Index a, Index b, Index c, Index d) const {
+Sign PolyhedronSigns::along_normal(Index a, Index b, Index c, Index p, Index q) const {
   const Differences u = differences(approximate_[a], approximate_[b]);
   const Differences v = differences(approximate_[a], approximate_[c]);
-  const Differences w = differences(approximate_[a], approximate_[d]);
+  const Differences w = differences(approximate_[p], approximate_[q]);
   const double largest = std::max({u.largest, v.largest, w.largest});
   // Every entry is off by at most e (two coordinate errors and one rounding). The determinant is a
   // sum of 6 products of 3 entries: off by at most 6 (3 D^2 e + 3 D e^2 + e^3) <= 18.6 D^2 e for
@@ -152,12 +152,13 @@ Sign PolyhedronSigns::orientation(Index a, Index b, Index c, Index d) const {
     if (determinant > bound) return Sign::Positive;
     if (determinant < -bound) return Sign::Negative;
   }
-  if (std::max({a, b, c, d}) < small_.size()) {
-    const auto& o = small_[a];
+  if (std::max({a, b, c, p, q}) < small_.size()) {
     std::array<std::array<Wide, 3>, 3> m;
-    const std::array<Index, 3> rows{b, c, d};
+    const std::array<std::array<Index, 2>, 3> rows{{{a, b}, {a, c}, {p, q}}};
     for (std::size_t r = 0; r < 3; ++r) {
-      for (std::size_t i = 0; i < 3; ++i) m[r][i] = Wide{small_[rows[r]][i]} - o[i];
+      for (std::size_t i = 0; i < 3; ++i) {
+        m[r][i] = Wide{small_[rows[r][1]][i]} - small_[rows[r][0]][i];
+      }
     }
     // Entries below 2^41, minors below 2^83, the sum below 2^126.
     return sign_of_wide((m[0][1] * m[1][2] - m[0][2] * m[1][1]) * m[2][0] +
@@ -166,7 +167,7 @@ Sign PolyhedronSigns::orientation(Index a, Index b, Index c, Index d) const {
   }
   const Exact x = difference(a, b);
   const Exact y = difference(a, c);
-  const Exact z = difference(a, d);
+  const Exact z = difference(p, q);
   const Integer determinant = (x[1] * y[2] - x[2] * y[1]) * z[0] +
                               (x[2] * y[0] - x[0] * y[2]) * z[1] +
                               (x[0] * y[1] - x[1] * y[0]) * z[2];
@@ -200,6 +201,13 @@ Sign PolyhedronSigns::turn(CoordinateIndex dropped, Index a, Index b, Index c) c
   const Exact y = difference(a, c);
   const Integer value = x[i] * y[j] - x[j] * y[i];
   return sign_of(value);
+}
+
+bool PolyhedronSigns::collinear(Index a, Index b, Index c) const {
+  for (CoordinateIndex dropped = 0; dropped < 3; ++dropped) {
+    if (turn(dropped, a, b, c) != Sign::Zero) return false;
+  }
+  return true;
 }
 
 Sign PolyhedronSigns::compare(CoordinateIndex coordinate, Index a, Index b) const {

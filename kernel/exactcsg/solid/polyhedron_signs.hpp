@@ -4,8 +4,8 @@
 // Exact signs over the vertices of one polyhedron: a double filter first, then integers of fixed
 // width where the coordinates are short, then unbounded integers. [Exact]
 //
-// For the checks of primitive.hpp, which look at one polyhedron at a time; the evaluator has the
-// richer number/geometry.hpp.
+// For what looks at one polyhedron at a time, as the checks of primitive.hpp and hulls do; the
+// evaluator has the richer number/geometry.hpp.
 
 #include <array>
 #include <cstdint>
@@ -32,9 +32,12 @@ class PolyhedronSigns {
 
   // The sign of ((b - a) x (c - a)) . (d - a): Positive if d lies on the side of the plane a, b, c
   // from which these are seen counter-clockwise.
-  Sign orientation(Index a, Index b, Index c, Index d) const;
+  Sign orientation(Index a, Index b, Index c, Index d) const { return along_normal(a, b, c, a, d); }
+  // The sign of ((b - a) x (c - a)) . (q - p): Positive if q is farther than p along the normal.
+  Sign along_normal(Index a, Index b, Index c, Index p, Index q) const;
   // The sign of one component of (b - a) x (c - a): the turn a, b, c in the projection along it.
   Sign turn(CoordinateIndex dropped, Index a, Index b, Index c) const;
+  bool collinear(Index a, Index b, Index c) const;
   // The sign of b's coordinate minus a's.
   Sign compare(CoordinateIndex coordinate, Index a, Index b) const;
   // The sign of the sum of det(a, b, c) over triangles: six times the signed volume if the

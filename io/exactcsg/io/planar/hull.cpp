@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Quickhull after Barber, Dobkin and Huhdanpaa (1996) in CGAL, on exact numbers. Its triangles are
-// merged to polygons here: a facet of a convex polytope is a whole face.
+// Quickhull after Barber, Dobkin and Huhdanpaa (1996) in CGAL, with exact predicates. Its triangles
+// are merged to polygons here: a facet of a convex polytope is a whole face.
 
 #include <CGAL/convex_hull_2.h>
 #include <CGAL/convex_hull_3.h>
@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "exactcsg/io/planar/exact_kernel.hpp"
+#include "exactcsg/io/planar/hull_traits.hpp"
 #include "exactcsg/io/planar/outline.hpp"
 #include "exactcsg/solid/evaluate.hpp"
 
@@ -20,28 +21,20 @@ namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
-template <class Points, class Extends>
-bool find_next(const Points& points, Extends&& extends) {
-  return std::any_of(points.begin(), points.end(), extends);
-}
-
 // Four of the points are not in one plane.
-bool spans_space(const std::vector<ExactPoint3>& points) {
-  if (points.empty()) return false;
-  const ExactPoint3& a = points[0];
-  const ExactPoint3* b = nullptr;
-  const ExactPoint3* c = nullptr;
-  return find_next(points, [&](const ExactPoint3& p) { return b = &p, p != a; }) &&
-         find_next(points,
-                   [&](const ExactPoint3& p) { return c = &p, !CGAL::collinear(a, *b, p); }) &&
-         find_next(points, [&](const ExactPoint3& p) { return !CGAL::coplanar(a, *b, *c, p); });
+bool spans_space(const PolyhedronSigns& signs, std::uint32_t count) {
+  std::uint32_t c = 2;
+  while (c < count && signs.collinear(0, 1, c)) ++c;
+  std::uint32_t d = c + 1;
+  while (d < count && signs.orientation(0, 1, c, d) == Sign::Zero) ++d;
+  return d < count;
 }
 
 using Triangle = std::array<std::size_t, 3>;
 
 class Merger {
  public:
-  Merger(const std::vector<ExactPoint3>& vertices, const std::vector<Triangle>& triangles)
+  Merger(const std::vector<HullPoint>& vertices, const std::vector<Triangle>& triangles)
       : vertices_(vertices), triangles_(triangles), neighbours_(triangles.size()) {
     std::unordered_map<std::uint64_t, std::uint32_t> open;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -71,13 +64,10 @@ class Merger {
 
   bool in_plane(std::uint32_t t, std::uint32_t other) const {
     const auto& [a, b, c] = triangles_[t];
-    for (const std::size_t v : triangles_[other]) {
-      if (v != a && v != b && v != c &&
-          !CGAL::coplanar(vertices_[a], vertices_[b], vertices_[c], vertices_[v])) {
-        return false;
-      }
-    }
-    return true;
+    return std::all_of(triangles_[other].begin(), triangles_[other].end(), [&](std::size_t v) {
+      return v == a || v == b || v == c ||
+             HullTraits::Coplanar_3()(vertices_[a], vertices_[b], vertices_[c], vertices_[v]);
+    });
   }
 
   std::vector<std::size_t> face_of(std::uint32_t start, std::uint32_t number) {
@@ -104,21 +94,20 @@ class Merger {
     } while (v != loop[0]);
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      if (!CGAL::collinear(vertices_[loop[(i + loop.size() - 1) % loop.size()]], vertices_[loop[i]],
-                           vertices_[loop[(i + 1) % loop.size()]])) {
-        corners.push_back(loop[i]);
-      }
+      const HullPoint before = vertices_[loop[(i + loop.size() - 1) % loop.size()]];
+      const HullPoint after = vertices_[loop[(i + 1) % loop.size()]];
+      if (!HullTraits::Collinear_3()(before, vertices_[loop[i]], after)) corners.push_back(loop[i]);
     }
     return corners;
   }
 
-  const std::vector<ExactPoint3>& vertices_;
+  const std::vector<HullPoint>& vertices_;
   const std::vector<Triangle>& triangles_;
   std::vector<std::array<std::uint32_t, 3>> neighbours_;
   std::vector<std::uint32_t> face_;  // that a triangle belongs to
 };
 
-Polyhedron polyhedron_of(const std::vector<ExactPoint3>& vertices,
+Polyhedron polyhedron_of(const std::vector<Point3>& points, const std::vector<HullPoint>& vertices,
                          const std::vector<std::vector<std::size_t>>& faces) {
   Polyhedron polyhedron;
   std::vector<std::uint32_t> number(vertices.size(), none);
@@ -127,8 +116,7 @@ Polyhedron polyhedron_of(const std::vector<ExactPoint3>& vertices,
     for (const std::size_t v : face) {
       if (number[v] == none) {
         number[v] = static_cast<std::uint32_t>(polyhedron.vertices.size());
-        const ExactPoint3& p = vertices[v];
-        polyhedron.vertices.push_back({rational_of(p.x()), rational_of(p.y()), rational_of(p.z())});
+        polyhedron.vertices.push_back(points[vertices[v].index]);
       }
       facet.push_back(number[v]);
     }
@@ -137,30 +125,34 @@ Polyhedron polyhedron_of(const std::vector<ExactPoint3>& vertices,
 }
 
 // Of four points CGAL makes a tetrahedron turned as the points happen to lie.
-void turn_outwards(const std::vector<ExactPoint3>& vertices, std::vector<Triangle>& triangles) {
-  const Triangle& first = triangles.front();
-  for (const ExactPoint3& vertex : vertices) {
-    switch (CGAL::orientation(vertices[first[0]], vertices[first[1]], vertices[first[2]], vertex)) {
-      case CGAL::COPLANAR:
-        continue;
-      case CGAL::NEGATIVE:
-        return;
-      case CGAL::POSITIVE:
-        for (Triangle& triangle : triangles) std::swap(triangle[1], triangle[2]);
-        return;
+void turn_outwards(const PolyhedronSigns& signs, const std::vector<HullPoint>& vertices,
+                   std::vector<Triangle>& triangles) {
+  const auto& [a, b, c] = triangles.front();
+  for (const HullPoint& vertex : vertices) {
+    const Sign side =
+        signs.orientation(vertices[a].index, vertices[b].index, vertices[c].index, vertex.index);
+    if (side == Sign::Zero) continue;
+    if (side == Sign::Positive) {
+      for (Triangle& triangle : triangles) std::swap(triangle[1], triangle[2]);
     }
+    return;
   }
 }
 
-Solid hull_of(std::vector<ExactPoint3> points) {
+Solid hull_of(std::vector<Point3> points) {
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (!spans_space(points)) return Solid::empty();
-  std::vector<ExactPoint3> vertices;
+  const PolyhedronSigns signs(points);
+  const auto count = static_cast<std::uint32_t>(points.size());
+  if (!spans_space(signs, count)) return Solid::empty();
+  std::vector<HullPoint> candidates;
+  candidates.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) candidates.push_back({&signs, i});
+  std::vector<HullPoint> vertices;
   std::vector<Triangle> triangles;
-  CGAL::convex_hull_3(points.begin(), points.end(), vertices, triangles);
-  turn_outwards(vertices, triangles);
-  Polyhedron polyhedron = polyhedron_of(vertices, Merger(vertices, triangles).faces());
+  CGAL::convex_hull_3(candidates.begin(), candidates.end(), vertices, triangles);
+  turn_outwards(signs, vertices, triangles);
+  Polyhedron polyhedron = polyhedron_of(points, vertices, Merger(vertices, triangles).faces());
   return Solid::primitive({make_convex_polytope_unchecked(std::move(polyhedron))});
 }
 
@@ -199,24 +191,15 @@ void add_outline_points(const PlanarTree& tree, std::vector<ExactPoint2>& points
 
 }  // namespace
 
-Solid hull(std::span<const Point3> points) {
-  std::vector<ExactPoint3> exact;
-  exact.reserve(points.size());
-  for (const Point3& p : points) exact.push_back(exact_point(p));
-  return hull_of(std::move(exact));
-}
+Solid hull(std::span<const Point3> points) { return hull_of({points.begin(), points.end()}); }
 
 Solid hull(const Solid& solid) {
-  std::vector<ExactPoint3> points;
-  const auto add = [&](const std::vector<Point3>& vertices) {
-    for (const Point3& p : vertices) points.push_back(exact_point(p));
-  };
-  if (only_unites(solid) && is_bounded(solid)) {
-    csg::for_each_primitive(
-        solid, [&](const Primitive& primitive) { add(polyhedron_of(primitive).vertices); });
-  } else {
-    add(evaluate(solid).vertices);
-  }
+  if (!only_unites(solid) || !is_bounded(solid)) return hull_of(evaluate(solid).vertices);
+  std::vector<Point3> points;
+  csg::for_each_primitive(solid, [&](const Primitive& primitive) {
+    const std::vector<Point3>& vertices = polyhedron_of(primitive).vertices;
+    points.insert(points.end(), vertices.begin(), vertices.end());
+  });
   return hull_of(std::move(points));
 }
 
