@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "cli/allocator.hpp"
 #include "cli/command.hpp"
 
 namespace exactcsg::cli {
@@ -25,11 +26,31 @@ std::vector<std::string> Context::take_warnings() {
   return std::exchange(warnings_, {});
 }
 
+namespace {
+
+// Below, huge pages are not worth their clearing.
+constexpr std::size_t few_facets = 1000;
+
+std::size_t facets_of(const Solid& solid) {
+  std::size_t facets = 0;
+  csg::for_each_primitive(solid, [&](const Primitive& primitive) {
+    if (const auto* polytope = std::get_if<ConvexPolytope>(&primitive.shape)) {
+      facets += polytope->polyhedron->facets.size();
+    } else if (const auto* mesh = std::get_if<PolyhedralMesh>(&primitive.shape)) {
+      facets += mesh->polyhedron->facets.size();
+    }
+  });
+  return facets;
+}
+
+}  // namespace
+
 io::Model read(Context& context, const std::filesystem::path& file) {
   io::ReadOptions options;
   options.progress = &context.progress();
   context.progress().begin("read", 0);
   io::Model model = io::read_model(file, options);
+  if (facets_of(model.solid) > few_facets) use_huge_pages();
   if (!model.front_end_messages.empty()) context.warn("openscad: " + model.front_end_messages);
   for (const io::Warning& warning : model.warnings) {
     const SourcePosition& at = warning.position;

@@ -91,10 +91,6 @@ struct Scene {
   std::optional<Geometry> geometry;
 };
 
-Rational coordinate(const Point3& p, Axis axis) {
-  return axis == Axis::X ? p.x : axis == Axis::Y ? p.y : p.z;
-}
-
 Scene make_scene(Random& random, const Kind& kind, int point_count, int plane_count) {
   Scene scene;
   Geometry::Builder builder;

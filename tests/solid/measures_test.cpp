@@ -209,6 +209,17 @@ TEST(Figures, ZeroCentroidBySymmetryAndByExactSums) {
   EXPECT_EQ((*off.centroid_decimals)[0], "1e-40");
 }
 
+// A figure that is a decimal is where enclosures never agree. Here exact sums are beyond all
+// limits, so that only the symmetry about the middle of the bounding box can prove it.
+TEST(Figures, CentroidBySymmetryAboutAnyPoint) {
+  const Rational a = long_number(40009);
+  const Rational b = long_number(50021);
+  const Boundary moved = boundary_of(octahedron(a, a, b), translation({1, 2}, 20, {-5, 4}));
+  const MeasuredFigures m = measure(moved);
+  EXPECT_EQ(*m.centroid_decimals, (std::array<std::string, 3>{"0.5", "20", "-1.25"}));
+  EXPECT_TRUE(m.unproved.empty());
+}
+
 TEST(Figures, AllDigitsAskedFor) {
   const Boundary third = boundary_of(*make_box({0, 0, 0}, {1, 1, {1, 3}}).polyhedron);
   EXPECT_EQ(measure(third, 5).volume_decimal, "0.33333");

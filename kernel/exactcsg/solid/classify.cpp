@@ -177,7 +177,16 @@ class SinglePoint {
     return true;
   }
 
+  bool in_bounding_box(const Polyhedron& polyhedron) const {
+    DoubleBox box = box_of(polyhedron.vertices.front());
+    for (const Point3& vertex : polyhedron.vertices) box = join(box, box_of(vertex));
+    return meet(box, box_of(point_));
+  }
+
   NearPoint near_mesh(const Primitive& primitive, const Polyhedron& polyhedron) {
+    if (!in_bounding_box(polyhedron)) {
+      return {Membership::Out, LocalPlace::decided(Membership::Out), {}};
+    }
     std::vector<std::size_t> holding;
     for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
       if (holds_point(polyhedron, polyhedron.facets[f])) holding.push_back(f);

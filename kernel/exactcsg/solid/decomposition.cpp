@@ -6,8 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include <tbb/enumerable_thread_specific.h>
-
+#include "exactcsg/solid/per_thread.hpp"
 #include "exactcsg/solid/polygon.hpp"
 
 namespace exactcsg {
@@ -78,8 +77,9 @@ struct Decomposition::Scratch {
   csg::PruneScratch<PrunedTree> prune;
 };
 
-struct Decomposition::ScratchPerThread : tbb::enumerable_thread_specific<Scratch> {
-  using enumerable_thread_specific::enumerable_thread_specific;
+struct Decomposition::ScratchPerThread : PerThread<Scratch> {
+  using Base = PerThread<Scratch>;
+  using Base::Base;
 };
 
 Decomposition::~Decomposition() = default;
@@ -234,7 +234,8 @@ Decomposition::Decomposition(const Scene& scene, std::size_t facets_per_cell, Pr
     : scene_(scene),
       facets_per_cell_(facets_per_cell),
       progress_(progress),
-      scratch_(std::make_unique<ScratchPerThread>(scene.primitives.size())) {}
+      scratch_(std::make_unique<ScratchPerThread>(
+          [count = scene.primitives.size()] { return Scratch(count); })) {}
 
 bool Decomposition::inseparable(const CellTask& task) const {
   std::array<PlaneRef, inseparable_planes> planes;

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <iterator>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "exactcsg/skeleton/divacon.hpp"
 #include "exactcsg/solid/canonical_boundary.hpp"
 #include "exactcsg/solid/classify.hpp"
 #include "exactcsg/solid/decomposition.hpp"
+#include "exactcsg/solid/per_thread.hpp"
 #include "exactcsg/solid/whole_facets.hpp"
 
 namespace exactcsg {
@@ -118,7 +117,7 @@ class Evaluation {
   const Scene& scene_;
   Decomposition decomposition_;
   Progress* progress_;
-  mutable tbb::enumerable_thread_specific<CellEvaluator> evaluators_;
+  mutable PerThread<CellEvaluator> evaluators_;
 };
 
 CellResult run(const Scene& scene, const EvaluateOptions& options) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "exactcsg/number/orientation.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -27,31 +28,46 @@ DoubleBox box_around(const std::array<double, 3>& position, double error) {
   return box;
 }
 
-enum class Inside : unsigned char { No, Yes, OnSide };
+using Corners = std::vector<Point3>;
 
-Inside point_in_facet(const Point3& point, const std::vector<Point3>& corners,
-                      const Vector3& normal) {
-  bool on_side = false;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Point3& from = corners[i];
-    const Point3& to = corners[i + 1 == corners.size() ? 0 : i + 1];
-    const int turn = sgn(dot(cross(to - from, point - from), normal));
-    if (turn < 0) return Inside::No;
-    on_side |= turn == 0;
+// Zero also for a triple of collinear corners: then the next one is asked.
+Sign side_of(const Corners& corners, const Point3& point) {
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    const Sign side = orientation(corners[0], corners[i - 1], corners[i], point);
+    if (side != Sign::Zero) return side;
   }
-  return on_side ? Inside::OnSide : Inside::Yes;
+  return Sign::Zero;
 }
 
-Vector3 normal_of(const std::vector<Point3>& corners) {
+enum class Passes : unsigned char { Beside, Through, ByASide };
+
+// How the line through p and q, which are not in one plane with the facet, passes a convex facet.
+Passes passes(const Point3& p, const Point3& q, const Corners& corners) {
+  bool left = false;
+  bool right = false;
+  bool meets_side = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Sign turn = orientation(p, q, corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]);
+    left |= turn == Sign::Positive;
+    right |= turn == Sign::Negative;
+    meets_side |= turn == Sign::Zero;
+    if (left && right) return Passes::Beside;
+  }
+  return meets_side ? Passes::ByASide : Passes::Through;
+}
+
+// Where the plane of the corners is met, in parts of the way from p to q.
+Rational crossing_parameter(const Point3& p, const Point3& q, const Corners& corners) {
   for (std::size_t i = 2; i < corners.size(); ++i) {
-    Vector3 normal = cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
-    if (normal != Vector3{}) return normal;
+    const Vector3 normal = cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
+    if (normal == Vector3{}) continue;
+    return dot(normal, corners[0] - p) / dot(normal, q - p);
   }
   throw Error(ErrorId::InternalError, {"a facet without area", ""});
 }
 
 // A point near the middle of a facet; each attempt gives another.
-Point3 aim(const std::vector<Point3>& corners, std::size_t attempt) {
+Point3 aim(const Corners& corners, std::size_t attempt) {
   std::array<double, 3> target{};
   double total = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -114,29 +130,27 @@ Membership nearest_crossing(const Point3& point, std::size_t facet_count,
     // Beyond the target nothing matters if the target is behind the first crossing; going on a
     // little makes sure of that although the target is rounded.
     const Point3 target = aim(corners_of(targets[attempt % facet_count]), attempt / facet_count);
-    const Vector3 direction = Rational(9, 8) * (target - point);
-    const DoubleBox reach = join(box_of(point), box_of(point + direction));
+    const Point3 end = point + Rational(9, 8) * (target - point);
+    const DoubleBox reach = join(box_of(point), box_of(end));
     std::optional<Crossing> nearest;
     bool degenerate = false;
     for (std::size_t f = 0; f < facet_count && !degenerate; ++f) {
       if (!meet(bounds[f], reach)) continue;
-      const std::vector<Point3> corners = corners_of(f);
-      const Vector3 normal = normal_of(corners);
-      const Rational height = dot(normal, point - corners[0]);
-      const Rational rate = dot(normal, direction);
-      if (sgn(rate) == 0) {
-        degenerate = sgn(height) == 0;
+      const Corners corners = corners_of(f);
+      const Sign here = side_of(corners, point);
+      const Sign there = side_of(corners, end);
+      if (here == Sign::Zero) {  // the point is in the facet's plane, but not in the facet
+        degenerate = there == Sign::Zero;
         continue;
       }
-      Rational parameter = -height / rate;
-      if (sgn(parameter) <= 0 || parameter > 1) continue;
+      if (here == there) continue;
+      const Passes passing = passes(point, end, corners);
+      degenerate = passing == Passes::ByASide;
+      if (passing != Passes::Through) continue;
+      Rational parameter = crossing_parameter(point, end, corners);
       if (nearest && nearest->parameter < parameter) continue;
-      const Inside inside = point_in_facet(point + parameter * direction, corners, normal);
-      degenerate = inside == Inside::OnSide;
-      if (inside == Inside::Yes) {
-        nearest =
-            Crossing{std::move(parameter), sgn(height) > 0 ? Membership::Out : Membership::In};
-      }
+      nearest =
+          Crossing{std::move(parameter), here == Sign::Positive ? Membership::Out : Membership::In};
     }
     if (nearest && !degenerate) return nearest->before;
   }

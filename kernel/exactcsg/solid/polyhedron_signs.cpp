@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "exactcsg/number/common_denominator.hpp"
+#include "exactcsg/number/exact_tiers.hpp"
 
 namespace exactcsg {
 
@@ -79,6 +80,10 @@ PolyhedronSigns::PolyhedronSigns(std::span<const Point3> points) {
 }
 
 void PolyhedronSigns::append(const Exact& numerators, const Integer& weight) {
+  for (const Integer& n : numerators) {
+    numerator_bits_ = std::max(numerator_bits_, mpz_sizeinbase(n.get_mpz_t(), 2));
+  }
+  weight_bits_ = std::max(weight_bits_, mpz_sizeinbase(weight.get_mpz_t(), 2));
   exact_.push_back(numerators);
   weight_.push_back(weight);
 }
@@ -120,16 +125,21 @@ PolyhedronSigns::Index PolyhedronSigns::add_mean(
   return static_cast<Index>(exact_.size() - 1);
 }
 
-PolyhedronSigns::Exact PolyhedronSigns::difference(Index from, Index to) const {
-  Exact d;
-  for (CoordinateIndex i = 0; i < 3; ++i) {
-    if (unit_weights_ || weight_[from] == weight_[to]) {
-      d[i] = exact_[to][i] - exact_[from][i];
-    } else {
-      d[i] = exact_[to][i] * weight_[from] - exact_[from][i] * weight_[to];
-    }
-  }
-  return d;
+template <class Integral>
+std::array<Integral, 3> PolyhedronSigns::difference(Index from, Index to) const {
+  const auto entry = [&](CoordinateIndex i) -> Integral {
+    const Integral head = integer_from<Integral>(exact_[to][i]);
+    const Integral tail = integer_from<Integral>(exact_[from][i]);
+    if (unit_weights_ || weight_[from] == weight_[to]) return head - tail;
+    return head * integer_from<Integral>(weight_[from]) -
+           tail * integer_from<Integral>(weight_[to]);
+  };
+  return {entry(0), entry(1), entry(2)};
+}
+
+bool PolyhedronSigns::fits_stack(std::size_t factors) const {
+  const std::size_t entry_bits = numerator_bits_ + weight_bits_ + 1;
+  return factors * entry_bits + 3 <= static_cast<std::size_t>(wide_bits);
 }
 
 Sign PolyhedronSigns::along_normal(Index a, Index b, Index c, Index p, Index q) const {
@@ -165,13 +175,16 @@ Sign PolyhedronSigns::along_normal(Index a, Index b, Index c, Index p, Index q) 
                         (m[0][2] * m[1][0] - m[0][0] * m[1][2]) * m[2][1] +
                         (m[0][0] * m[1][1] - m[0][1] * m[1][0]) * m[2][2]);
   }
-  const Exact x = difference(a, b);
-  const Exact y = difference(a, c);
-  const Exact z = difference(p, q);
-  const Integer determinant = (x[1] * y[2] - x[2] * y[1]) * z[0] +
-                              (x[2] * y[0] - x[0] * y[2]) * z[1] +
-                              (x[0] * y[1] - x[1] * y[0]) * z[2];
-  return sign_of(determinant);
+  const auto exactly = [&]<class Integral>(Integral) {
+    const auto x = difference<Integral>(a, b);
+    const auto y = difference<Integral>(a, c);
+    const auto z = difference<Integral>(p, q);
+    const Integral determinant = (x[1] * y[2] - x[2] * y[1]) * z[0] +
+                                 (x[2] * y[0] - x[0] * y[2]) * z[1] +
+                                 (x[0] * y[1] - x[1] * y[0]) * z[2];
+    return sign_of(determinant);
+  };
+  return fits_stack(3) ? exactly(WideInteger()) : exactly(Integer());
 }
 
 Sign PolyhedronSigns::turn(CoordinateIndex dropped, Index a, Index b, Index c) const {
@@ -197,10 +210,13 @@ Sign PolyhedronSigns::turn(CoordinateIndex dropped, Index a, Index b, Index c) c
     const auto& t = small_[c];
     return sign_of_wide(Wide{s[i] - o[i]} * (t[j] - o[j]) - Wide{s[j] - o[j]} * (t[i] - o[i]));
   }
-  const Exact x = difference(a, b);
-  const Exact y = difference(a, c);
-  const Integer value = x[i] * y[j] - x[j] * y[i];
-  return sign_of(value);
+  const auto exactly = [&]<class Integral>(Integral) {
+    const auto x = difference<Integral>(a, b);
+    const auto y = difference<Integral>(a, c);
+    const Integral value = x[i] * y[j] - x[j] * y[i];
+    return sign_of(value);
+  };
+  return fits_stack(2) ? exactly(WideInteger()) : exactly(Integer());
 }
 
 bool PolyhedronSigns::collinear(Index a, Index b, Index c) const {
@@ -215,7 +231,7 @@ Sign PolyhedronSigns::compare(CoordinateIndex coordinate, Index a, Index b) cons
   const double bound = 2.0 * coordinate_error_ * (1 + 4 * ulp);
   if (value > bound) return Sign::Positive;
   if (value < -bound) return Sign::Negative;
-  const Integer d = difference(a, b)[coordinate];
+  const Integer d = difference<Integer>(a, b)[coordinate];
   return sign_of(d);
 }
 

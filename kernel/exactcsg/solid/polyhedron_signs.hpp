@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Exact signs over the vertices of one polyhedron: a double filter first, then integers of fixed
-// width where the coordinates are short, then unbounded integers. [Exact]
+// Exact signs over the vertices of one polyhedron: a double filter first, then machine
+// integers where the coordinates are short, then integers on the stack, then unbounded ones.
+// [Exact]
 //
 // For what looks at one polyhedron at a time, as the checks of primitive.hpp and hulls do; the
 // evaluator has the richer number/geometry.hpp.
@@ -50,7 +51,10 @@ class PolyhedronSigns {
 
  private:
   using Exact = std::array<Integer, 3>;
-  Exact difference(Index from, Index to) const;
+  template <class Integral>
+  std::array<Integral, 3> difference(Index from, Index to) const;
+  // Whether a sum of six products of `factors` differences fits the integers on the stack.
+  bool fits_stack(std::size_t factors) const;
   void append(const Exact& numerators, const Integer& weight);
 
   std::vector<std::array<double, 3>> approximate_;
@@ -61,6 +65,8 @@ class PolyhedronSigns {
   std::vector<Exact> exact_;
   std::vector<Integer> weight_;
   bool unit_weights_ = true;
+  std::size_t numerator_bits_ = 0;
+  std::size_t weight_bits_ = 0;
   // The same as machine integers if all weights are 1 and every magnitude is below 2^40.
   std::vector<std::array<std::int64_t, 3>> small_;
 };
