@@ -63,10 +63,11 @@ class Merger {
   std::size_t to(std::uint32_t t, std::size_t i) const { return triangles_[t][(i + 1) % 3]; }
 
   bool in_plane(std::uint32_t t, std::uint32_t other) const {
-    const auto& [a, b, c] = triangles_[t];
+    const Triangle& own = triangles_[t];
     return std::all_of(triangles_[other].begin(), triangles_[other].end(), [&](std::size_t v) {
-      return v == a || v == b || v == c ||
-             HullTraits::Coplanar_3()(vertices_[a], vertices_[b], vertices_[c], vertices_[v]);
+      return std::find(own.begin(), own.end(), v) != own.end() ||
+             HullTraits::Coplanar_3()(vertices_[own[0]], vertices_[own[1]], vertices_[own[2]],
+                                      vertices_[v]);
     });
   }
 
