@@ -19,8 +19,9 @@ void PieceBuffer::add(OrientedPlaneRef outward, signed char corner_sense, FacetI
 CellEvaluator::CellEvaluator(const Scene& scene, Progress* progress)
     : scene_(scene),
       progress_(progress),
-      front_(scene.primitives.size(), Membership::Unknown),
-      behind_(scene.primitives.size(), Membership::Unknown) {}
+      truth_(scene.primitives.size(), CombineSides(), AbsorbsSides(),
+             {BothSides{Membership::In, Membership::In},
+              BothSides{Membership::Out, Membership::Out}}) {}
 
 void CellEvaluator::build_local_forms(std::span<const CellFacet> facets) {
   nodes_.clear();
@@ -64,23 +65,23 @@ void CellEvaluator::order_primitives_for(const CellFacet& facet,
 
 void CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree& tree,
                              PieceBuffer& result, TierStatistics& statistics) {
-  tree_ = &tree;
   result_ = &result;
   statistics_ = &statistics;
   build_local_forms(facets);
+  truth_.assign(tree, {});
   for (const CellFacet& facet : facets) {
     if (progress_ != nullptr) progress_->check();
     facet_ = &facet;
     order_primitives_for(facet, facets);
     const bool outward_front = facet.polygon.plane.sense > 0;
-    front_[facet.primitive] = outward_front ? Membership::Out : Membership::In;
-    behind_[facet.primitive] = outward_front ? Membership::In : Membership::Out;
+    truth_.change(facet.primitive, outward_front ? BothSides{Membership::Out, Membership::In}
+                                                 : BothSides{Membership::In, Membership::Out});
     pool_.assign(facet.polygon.corners.begin(), facet.polygon.corners.end());
     const std::size_t first_piece = result.pieces.size();
     const std::size_t first_corner = result.corners.size();
     classify({0, pool_.size(), facet.share}, 0);
     join_pieces(facet, first_piece, first_corner);
-    front_[facet.primitive] = behind_[facet.primitive] = Membership::Unknown;
+    truth_.change(facet.primitive, {});
   }
 }
 
@@ -101,17 +102,8 @@ void CellEvaluator::join_pieces(const CellFacet& facet, std::size_t first_piece,
   result_->add(joined.plane, joined.corner_sense, facet.facet, facet.share, facet.polygon.corners);
 }
 
-Membership CellEvaluator::truth(const std::vector<Membership>& status) {
-  return csg::traverse(
-      *tree_, [&](PrimitiveIndex primitive) { return status[primitive]; },
-      [](Membership a, csg::BooleanOperator op, Membership b) { return csg::combine(a, op, b); },
-      csg::FullEmptyResult{Membership::In, Membership::Out},
-      [](Membership a, csg::BooleanOperator op) { return csg::absorbs(a, op); }, scratch_);
-}
-
 void CellEvaluator::classify(Range piece, std::size_t next) {
-  const Membership front = truth(front_);
-  const Membership behind = truth(behind_);
+  const auto [front, behind] = truth_.value();
   if (front != Membership::Unknown && behind != Membership::Unknown) {
     if (front == behind) return;
     // A lower primitive that covers the piece in the same plane would emit it too.
@@ -177,10 +169,9 @@ void CellEvaluator::descend(Range piece, LocalPlace front, LocalPlace behind, st
   const PrimitiveIndex primitive = locals_[order_[next]].primitive;
   const bool covered = front.membership() != behind.membership();
   if (covered && primitive < facet_->primitive) return;
-  front_[primitive] = front.membership();
-  behind_[primitive] = behind.membership();
+  truth_.change(primitive, {front.membership(), behind.membership()});
   classify(piece, next + 1);
-  front_[primitive] = behind_[primitive] = Membership::Unknown;
+  truth_.change(primitive, {});
 }
 
 }  // namespace exactcsg

@@ -12,7 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "exactcsg/csg/traverse.hpp"
+#include "exactcsg/csg/boolean_operator.hpp"
+#include "exactcsg/csg/maintained_traverse.hpp"
 #include "exactcsg/solid/local_form.hpp"
 #include "exactcsg/solid/scene.hpp"
 #include "exactcsg/support/progress.hpp"
@@ -51,6 +52,25 @@ struct CellFacet {
   FacetPolygon polygon;
 };
 
+// What is known just in front of a facet, along the stored normal of its plane, and just behind.
+struct BothSides {
+  csg::Membership front = csg::Membership::Unknown;
+  csg::Membership behind = csg::Membership::Unknown;
+  friend bool operator==(const BothSides&, const BothSides&) = default;
+};
+
+struct CombineSides {
+  BothSides operator()(const BothSides& a, csg::BooleanOperator op, const BothSides& b) const {
+    return {csg::combine(a.front, op, b.front), csg::combine(a.behind, op, b.behind)};
+  }
+};
+
+struct AbsorbsSides {
+  bool operator()(const BothSides& a, csg::BooleanOperator op) const {
+    return csg::absorbs(a.front, op) && csg::absorbs(a.behind, op);
+  }
+};
+
 class CellEvaluator {
  public:
   // Asks the progress, if there is one, for cancellation once a facet.
@@ -80,22 +100,19 @@ class CellEvaluator {
   void classify(Range piece, std::size_t next);
   void join_pieces(const CellFacet& facet, std::size_t first_piece, std::size_t first_corner);
   void descend(Range piece, LocalPlace front, LocalPlace behind, std::size_t next);
-  csg::Membership truth(const std::vector<csg::Membership>& status);
 
   const Scene& scene_;
   Progress* progress_;
-  // Status of every primitive of the scene on either side of the facet at hand; Unknown between
-  // uses. Front: along the stored normal of the facet's plane.
-  std::vector<csg::Membership> front_;
-  std::vector<csg::Membership> behind_;
+  // On either side of the facet at hand, as far as the primitives are decided.
+  csg::MaintainedTraverse<PrimitiveIndex, csg::BooleanOperator, BothSides, CombineSides,
+                          AbsorbsSides>
+      truth_;
   std::vector<LocalNode> nodes_;
   std::vector<LocalPrimitive> locals_;
   std::vector<std::uint32_t> order_;  // indices into locals_, those coplanar with the facet first
   std::size_t coplanar_count_ = 0;
   std::vector<Corner> pool_;
   std::vector<Sign> signs_;
-  csg::TraverseScratch<PrunedTree, csg::Membership> scratch_;
-  const PrunedTree* tree_ = nullptr;
   const CellFacet* facet_ = nullptr;
   PieceBuffer* result_ = nullptr;
   TierStatistics* statistics_ = nullptr;
