@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "exactcsg/number/enclosure.hpp"
 #include "exactcsg/solid/figures.hpp"
+#include "exactcsg/solid/scaled_vertices.hpp"
 
 namespace exactcsg::cli {
 
@@ -26,7 +27,7 @@ constexpr std::size_t longest_in_json = 1000;
 constexpr std::size_t longest_in_text = 80;
 
 // Of a number of so many digits.
-constexpr std::size_t bits_of(std::size_t digits) { return digits * 3322 / 1000 + 1; }
+constexpr std::size_t bits_of(std::size_t digits) { return (digits * 3322 + 999) / 1000; }
 
 using Triple = std::array<std::string, 3>;
 
@@ -45,12 +46,18 @@ Triple decimals(const Point3& point, int digits) {
   return {to_decimal(point.x, digits), to_decimal(point.y, digits), to_decimal(point.z, digits)};
 }
 
+// Summing up fractions without a common denominator is work that only machines ask for.
+std::size_t longest_fraction_shown(const Boundary& boundary, bool json) {
+  if (json) return longest_in_json;
+  return has_short_common_denominator(boundary) ? longest_in_text : 0;
+}
+
 Measurement take(Context& context, const io::Model& model, const Arguments& arguments) {
   const int digits = arguments.digits;
-  const std::size_t longest_fraction = arguments.json ? longest_in_json : longest_in_text;
   Measurement result;
   const Boundary boundary = evaluate(model.solid, context.evaluate_options());
   context.progress().begin("measure", 0);
+  const std::size_t longest_fraction = longest_fraction_shown(boundary, arguments.json);
   result.figures = measure(boundary, digits, bits_of(longest_fraction));
   context.progress().check();
   for (const std::string& figure : result.figures.unproved) {

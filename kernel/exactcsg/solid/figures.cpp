@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <ranges>
 
 namespace exactcsg {
 
@@ -85,28 +86,58 @@ struct Mirror {
 };
 
 // The indices of the images in a sorted list, or nullopt if one of them is not there.
-template <class T>
+// precedes(i, target): items[i] comes before the target.
+template <class T, class Precedes>
 std::optional<std::vector<std::uint32_t>> image_of(const std::vector<T>& items,
-                                                   const Mirror& mirror) {
+                                                   const Mirror& mirror, const Precedes& precedes) {
   const auto less = [](const T& p, const T& q) { return compare(p, q) < 0; };
   if (!std::is_sorted(items.begin(), items.end(), less)) return std::nullopt;
   std::vector<std::uint32_t> image;
   image.reserve(items.size());
+  const std::ranges::iota_view indices(std::uint32_t{0}, static_cast<std::uint32_t>(items.size()));
   for (const T& item : items) {
     const T target = mirror(item);
-    const auto at = std::lower_bound(items.begin(), items.end(), target, less);
-    if (at == items.end() || !(*at == target)) return std::nullopt;
-    image.push_back(static_cast<std::uint32_t>(at - items.begin()));
+    const auto before = precedes(target);
+    const auto at = std::ranges::partition_point(indices, before);
+    if (at == indices.end() || !(items[*at] == target)) return std::nullopt;
+    image.push_back(*at);
   }
   return image;
+}
+
+std::optional<std::vector<std::uint32_t>> image_of_vertices(const Boundary& boundary,
+                                                            const Mirror& mirror) {
+  // Rounding to nearest is monotone: only equal doubles leave the order open.
+  const auto precedes = [&](const Point3& target) {
+    const std::array<double, 3> near{nearest_double(target.x), nearest_double(target.y),
+                                     nearest_double(target.z)};
+    return [&boundary, &target, near](std::uint32_t v) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double mine = boundary.approximate[v][axis];
+        if (mine != near[axis]) return mine < near[axis];
+        const int order = cmp(coordinate(boundary.vertices[v], axis), coordinate(target, axis));
+        if (order != 0) return order < 0;
+      }
+      return false;
+    };
+  };
+  if (boundary.approximate.size() != boundary.vertices.size()) return std::nullopt;
+  return image_of(boundary.vertices, mirror, precedes);
+}
+
+std::optional<std::vector<std::uint32_t>> image_of_planes(const Boundary& boundary,
+                                                          const Mirror& mirror) {
+  return image_of(boundary.planes, mirror, [&](const Plane& target) {
+    return [&](std::uint32_t p) { return compare(boundary.planes[p], target) < 0; };
+  });
 }
 
 // The mirror maps the solid to itself: its vertices are, and the sides of its faces with their
 // planes.
 bool symmetric(const Boundary& boundary, const Mirror& mirror) {
-  const auto vertices = image_of(boundary.vertices, mirror);
+  const auto vertices = image_of_vertices(boundary, mirror);
   if (!vertices) return false;
-  const auto planes = image_of(boundary.planes, mirror);
+  const auto planes = image_of_planes(boundary, mirror);
   if (!planes) return false;
   const bool reversed = mirror.turns_inside_out();
   std::vector<std::array<std::uint32_t, 3>> sides;
@@ -182,7 +213,7 @@ class CentroidOracle {
 MeasuredFigures measure(const Boundary& boundary, int digits, std::size_t exact_bits) {
   MeasuredFigures figures;
   figures.bounding_box = bounding_box(boundary);
-  figures.exact_volume = exact_volume(boundary, exact_bits);
+  if (exact_bits > 0) figures.exact_volume = exact_volume(boundary, exact_bits);
   if (boundary.empty()) {
     figures.volume_decimal = figures.area_decimal = "0";
     return figures;

@@ -25,7 +25,8 @@ struct MeasuredFigures {
 
 // LAW figures.1  every decimal not named in `unproved` is the exact value correctly rounded to
 // `digits` significant digits (ties to even; trailing zeros dropped).
-// The exact volume is given if its numerator and denominator have at most exact_bits bits.
+// The exact volume is given if its numerator and denominator have at most exact_bits bits; 0: it
+// is not looked for.
 // REQUIRES digits >= 1
 MeasuredFigures measure(const Boundary& boundary, int digits = 17, std::size_t exact_bits = 4096);
 
