@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "exactcsg/csg/prune.hpp"
 #include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/gdt/create.hpp"
+#include "exactcsg/gdt/overlay.hpp"
 #include "exactcsg/gdt/traverse.hpp"
 
 namespace exactcsg {
@@ -91,6 +94,27 @@ TEST(Examples, KeepADivision) {
       [](const Cell& c) { return c.from; }, gdt::unlimited_depth, skeleton::SequentialExecutor{},
       [](const Cell& c) { return c.cut; });
   EXPECT_EQ(gdt::descend(tree, [](int cut) { return 42 < cut ? 0 : 1; }), 42);
+}
+
+TEST(Examples, CombineTwoDivisions) {
+  using Quadtree = gdt::Tree<int>;  // 1: full, 0: empty
+  const auto t = Quadtree::terminal;
+  const Quadtree left = Quadtree::interior({t(1), t(0), t(1), t(0)});
+  const Quadtree right =
+      Quadtree::interior({t(0), Quadtree::interior({t(1), t(1), t(1), t(1)}), t(0), t(1)});
+  const auto full_early = [](const int* a, const int* b) {
+    return (a && *a) || (b && *b) ? std::optional(1) : std::nullopt;
+  };
+  const auto united = gdt::merge_equal(gdt::overlay(left, right, std::bit_or<int>(), full_early));
+  EXPECT_EQ(united, t(1));
+
+  const gdt::Cell<int, 2> space{{0, 0}, {4, 4}};
+  using KdTree = gdt::Tree<int, gdt::Cut<int>>;
+  const KdTree band = KdTree::interior({KdTree::terminal(5), KdTree::terminal(7)}, {1, 3});
+  const auto sum = gdt::overlay_cuts(gdt::to_cuts(left, space), band, space, std::plus<int>());
+  const auto values = std::vector(sum.terminals().begin(), sum.terminals().end());
+  // Below y = 2 only the 5; above, both parts of each half.
+  EXPECT_EQ(values, (std::vector{6, 5, 6, 8, 5, 7}));
 }
 
 }  // namespace

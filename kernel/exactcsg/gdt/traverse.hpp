@@ -40,6 +40,19 @@ concept CombinesChildren =
         Combine&, std::span<R>,
 const N& > ;
 
+namespace detail {
+
+template <class R, class Combine, class Node>
+R combine_children(Combine& combine, std::span<R> results, const Node& node) {
+  if constexpr (std::is_invocable_r_v<R, Combine&, std::span<R>>) {
+    return combine(results);
+  } else {
+    return combine(results, node.label());
+  }
+}
+
+}  // namespace detail
+
 template <class T, class N, std::invocable<const T&> Solve, class Combine,
           class E = skeleton::SequentialExecutor,
           class R = std::remove_cvref_t<std::invoke_result_t<Solve&, const T&>>>
@@ -53,11 +66,7 @@ requires std::movable<R> && CombinesChildren<Combine, R, N> R traverse(const Tre
       [](const Node& node) { return node.children(); },
       [&](const Node& node) -> R { return solve(node.terminal()); },
       [&](std::span<R> results, const Node& node) -> R {
-        if constexpr (std::is_invocable_r_v<R, Combine&, std::span<R>>) {
-          return combine(results);
-        } else {
-          return combine(results, node.label());
-        }
+        return detail::combine_children<R>(combine, results, node);
       },
       executor);
 }

@@ -13,12 +13,17 @@
 // destroyed. COST: 12 bytes a node besides the T and N. At most 2^32 - 2 nodes, else THROWS
 // Error(TooLarge).
 //
+// map(tree, function [, label_function]) is the same tree with function(t) in place of every
+// terminal t, and label_function(n) in place of every label n. LAW gdt.3  map keeps the shape, and
+// calls each function once a node, terminals from left to right.
+//
 // Source: Davy and Dew, section 3.3; labels make it the multi-resolution tree of 3.7 as well, and
 // let a path be followed (section 6.1 misses that).
 
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <ranges>
 #include <span>
@@ -49,10 +54,16 @@ class Tree {
     const T& terminal() const noexcept { return tree_->terminals_[record().payload]; }
     // REQUIRES !is_terminal(), these three; index < degree().
     const N& label() const noexcept { return tree_->labels_[record().payload]; }
+    // Of a multi-resolution tree: what is known of this node's part, whichever kind it is.
+    const T& geometry() const noexcept requires std::same_as<T, N> {
+      return is_terminal() ? terminal() : label();
+    }
     std::size_t degree() const noexcept { return record().degree; }
     Node child(std::size_t index) const noexcept {
       return Node(*tree_, record().first_child + static_cast<std::uint32_t>(index));
     }
+    // The same node of the same tree, not an equal one.
+    friend bool operator==(const Node&, const Node&) = default;
     auto children() const noexcept {
       return std::views::iota(std::size_t{0}, degree()) |
              std::views::transform([node = *this](std::size_t i) { return node.child(i); });
@@ -82,7 +93,34 @@ class Tree {
       const Tree&, const Tree&) requires std::equality_comparable<T> && std::equality_comparable<N>
   = default;
 
+  // See map.
+  template <class F, class G>
+  auto mapped(F& terminal_function, G& label_function) const {
+    using U = std::remove_cvref_t<std::invoke_result_t<F&, const T&>>;
+    using M = std::remove_cvref_t<std::invoke_result_t<G&, const N&>>;
+    Tree<U, M> result;
+    result.nodes_.reserve(nodes_.size());
+    for (const Record& r : nodes_) {
+      const bool counted = r.degree == terminal_mark || !std::is_empty_v<M>;
+      result.nodes_.push_back({r.first_child, r.degree, counted ? r.payload : 0});
+    }
+    result.terminals_.reserve(terminals_.size());
+    for (const T& terminal : terminals_) {
+      result.terminals_.push_back(std::invoke(terminal_function, terminal));
+    }
+    if constexpr (!std::is_empty_v<M>) {
+      static_assert(!std::is_empty_v<N>, "labels that say nothing cannot be told apart");
+      result.labels_.reserve(labels_.size());
+      for (std::size_t i = 0; i < labels_.size(); ++i) {
+        result.labels_.push_back(std::invoke(label_function, labels_[i]));
+      }
+    }
+    return result;
+  }
+
  private:
+  template <class, class>
+  friend class Tree;
   static constexpr std::uint32_t terminal_mark = std::numeric_limits<std::uint32_t>::max();
 
   // The children of a node are neighbours, so that one number leads to any of them.
@@ -182,6 +220,11 @@ void Tree<T, N>::adopt(std::size_t index, Tree child) {
   for (std::size_t i = 0; i < child.labels_.size(); ++i) {
     labels_.push_back(std::move(child.labels_[i]));
   }
+}
+
+template <class T, class N, std::invocable<const T&> F, std::invocable<const N&> G = std::identity>
+auto map(const Tree<T, N>& tree, F&& function, G&& label_function = {}) {
+  return tree.mapped(function, label_function);
 }
 
 }  // namespace exactcsg::gdt
