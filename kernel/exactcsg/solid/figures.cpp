@@ -14,6 +14,7 @@ namespace {
 class Refinement {
  public:
   explicit Refinement(const Boundary& boundary) : boundary_(boundary) {}
+  const Boundary& boundary() const { return boundary_; }
   const MeasureEnclosures& at(int bits) {
     const auto found = known_.find(bits);
     if (found != known_.end()) return found->second;
@@ -28,6 +29,19 @@ class Refinement {
 constexpr int maximal_bits = 5000;
 constexpr std::size_t exact_bits_to_break_ties = 1U << 16U;
 
+int first_bits_for(int digits) { return 32 + (digits * 10 + 2) / 3; }
+
+// The enclosure, which is asked for anyway, is often exact already.
+std::optional<Rational> volume_within(Refinement& refinement, int digits, std::size_t bit_limit) {
+  const Enclosure& volume = refinement.at(first_bits_for(digits)).volume;
+  if (volume.lower != volume.upper) return exact_volume(refinement.boundary(), bit_limit);
+  const Rational& exact = volume.lower;
+  const std::size_t bits =
+      std::max(mpz_sizeinbase(exact.get_num_mpz_t(), 2), mpz_sizeinbase(exact.get_den_mpz_t(), 2));
+  if (bits > bit_limit) return std::nullopt;
+  return exact;
+}
+
 using MaybeRational = std::function<std::optional<Rational>()>;
 
 // `by_symmetry` is asked as soon as the digits are not decided, `exactly` after one more try.
@@ -35,7 +49,7 @@ std::string decide(Refinement& refinement, int digits, const std::string& name,
                    const std::function<Enclosure(const MeasureEnclosures&)>& figure,
                    const MaybeRational& by_symmetry, const MaybeRational& exactly,
                    std::vector<std::string>& unproved) {
-  const int first_bits = 32 + (digits * 10 + 2) / 3;
+  const int first_bits = first_bits_for(digits);
   bool tried = false;
   for (int bits = first_bits;; bits *= 2) {
     const Enclosure e = figure(refinement.at(bits));
@@ -213,12 +227,13 @@ class CentroidOracle {
 MeasuredFigures measure(const Boundary& boundary, int digits, std::size_t exact_bits) {
   MeasuredFigures figures;
   figures.bounding_box = bounding_box(boundary);
-  if (exact_bits > 0) figures.exact_volume = exact_volume(boundary, exact_bits);
   if (boundary.empty()) {
     figures.volume_decimal = figures.area_decimal = "0";
+    if (exact_bits > 0) figures.exact_volume = 0;
     return figures;
   }
   Refinement refinement(boundary);
+  if (exact_bits > 0) figures.exact_volume = volume_within(refinement, digits, exact_bits);
   if (figures.exact_volume) {
     figures.volume_decimal = to_decimal(*figures.exact_volume, digits);
   } else {
