@@ -16,7 +16,10 @@
 #include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/gdt/create.hpp"
 #include "exactcsg/gdt/overlay.hpp"
+#include "exactcsg/gdt/path.hpp"
+#include "exactcsg/gdt/ray_walk.hpp"
 #include "exactcsg/gdt/traverse.hpp"
+#include "exactcsg/number/exact.hpp"
 
 namespace exactcsg {
 namespace {
@@ -96,12 +99,32 @@ TEST(Examples, KeepADivision) {
   EXPECT_EQ(gdt::descend(tree, [](int cut) { return 42 < cut ? 0 : 1; }), 42);
 }
 
-TEST(Examples, CombineTwoDivisions) {
+TEST(Examples, FollowAPathAndCombineTwoDivisions) {
   using Quadtree = gdt::Tree<int>;  // 1: full, 0: empty
   const auto t = Quadtree::terminal;
   const Quadtree left = Quadtree::interior({t(1), t(0), t(1), t(0)});
   const Quadtree right =
       Quadtree::interior({t(0), Quadtree::interior({t(1), t(1), t(1), t(1)}), t(0), t(1)});
+
+  const gdt::Cell<int, 2> square{{0, 0}, {4, 4}};
+  const auto path = gdt::locate(right, square, gdt::Orthants{}, std::array{3, 1});
+  EXPECT_EQ(path.cell(), (gdt::Cell<int, 2>{{3, 1}, {4, 2}}));
+  EXPECT_EQ(path.depth(), 2U);
+  int found = 0;
+  gdt::neighbours(path, 1, gdt::Side::Upper, [&](int, const gdt::Cell<int, 2>& cell) {
+    ++found;
+    EXPECT_EQ(cell, (gdt::Cell<int, 2>{{2, 2}, {4, 4}}));
+  });
+  EXPECT_EQ(found, 1);
+  const gdt::Ray<Rational, 2> diagonal{{-1, -1}, {1, 1}};
+  Rational entry;
+  EXPECT_TRUE(gdt::walk_ray(right, square, gdt::Orthants{}, diagonal,
+                            [&](int full, const auto&, const gdt::RayPart<Rational>& part) {
+                              entry = part.begin;
+                              return full == 1;
+                            }));
+  EXPECT_EQ(entry, 3);
+
   const auto full_early = [](const int* a, const int* b) {
     return (a && *a) || (b && *b) ? std::optional(1) : std::nullopt;
   };

@@ -25,7 +25,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <ranges>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -46,6 +45,8 @@ class Tree {
   using Terminal = T;
   using Label = N;
 
+  struct Children;
+
   // One node of a tree that outlives it.
   class Node {
    public:
@@ -64,17 +65,33 @@ class Tree {
     }
     // The same node of the same tree, not an equal one.
     friend bool operator==(const Node&, const Node&) = default;
-    auto children() const noexcept {
-      return std::views::iota(std::size_t{0}, degree()) |
-             std::views::transform([node = *this](std::size_t i) { return node.child(i); });
-    }
+    // REQUIRES !is_terminal()
+    Children children() const noexcept { return {child(0), child(degree())}; }
 
    private:
     friend class Tree;
+    friend struct Children;
     Node(const Tree& tree, std::uint32_t index) noexcept : tree_(&tree), index_(index) {}
     const auto& record() const noexcept { return tree_->nodes_[index_]; }
     const Tree* tree_;
     std::uint32_t index_;
+  };
+
+  // The range of a node's children. (Clang 14 cannot read the views of libstdc++.)
+  struct Children {
+    struct Iterator {
+      Node node;
+      Node operator*() const noexcept { return node; }
+      Iterator& operator++() noexcept {
+        ++node.index_;
+        return *this;
+      }
+      friend bool operator==(const Iterator&, const Iterator&) = default;
+    };
+    Node first;
+    Node past_last;
+    Iterator begin() const noexcept { return {first}; }
+    Iterator end() const noexcept { return {past_last}; }
   };
 
   static Tree terminal(T value) { return Tree(detail::Subtree<T, N>::terminal(std::move(value))); }
