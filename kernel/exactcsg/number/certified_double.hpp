@@ -9,6 +9,8 @@
 
 #include <cmath>
 
+#include "exactcsg/number/exact.hpp"
+
 namespace exactcsg {
 
 struct CertifiedDouble {
@@ -18,6 +20,12 @@ struct CertifiedDouble {
   double lower() const { return value - error - 0x1p-52 * std::abs(value); }
   double upper() const { return value + error + 0x1p-52 * std::abs(value); }
 };
+
+// Rounding to nearest is off by at most u |value|, or half the least subnormal.
+inline CertifiedDouble certified_double_of(const Rational& value) {
+  const double nearest = nearest_double(value);
+  return {nearest, 0x1p-53 * std::abs(nearest) * (1 + 0x1p-51) + 0x1p-1074};
+}
 
 // Each operation's own rounding is at most u |result| (u = 2^-53) plus half the least subnormal;
 // the error terms themselves are rounded, a relative 2^-52 each: doubling u and adding 2^-1000

@@ -13,11 +13,10 @@
 #include <span>
 #include <vector>
 
+#include "exactcsg/domain/point_class.hpp"
 #include "exactcsg/solid/evaluate.hpp"
 
 namespace exactcsg {
-
-enum class PointClass : unsigned char { Out, On, In };
 
 // One point, without building anything: a traversal of the tree.
 // COST: O(facets) filtered signs; neighbourhoods only of the primitives whose boundary has the

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Half-spaces bounded by surfaces of degree at most two, and what every domain can be asked: which
+// class a point has, what a box is, and where a line crosses the boundary. [Exact]
+//
+// A half-space is {x : f(x) <= 0} for a polynomial f of degree at most two, or the part of such a
+// set with g(x) <= 0 as well, g linear (one nappe of a cone); or the closure of the complement of
+// either. It is an immutable value that shares its data: copying costs O(1).
+//
+// LAW half_space.1  classify(h, point) is On exactly where the boundary is: where f is zero (and
+//                   g <= 0); In is the interior.
+// LAW half_space.2  classify(h, box) is In iff the box is a subset of h, Out iff the interiors are
+//                   disjoint, and Unknown iff neither: it is mixed. Never conservative.
+// LAW half_space.3  section(h, line).between[i] is the class of every point of the line strictly
+//                   between crossing i-1 and crossing i; all crossings are On or on both sides On.
+// LAW half_space.4  complement(h) has In and Out swapped, On where h has.
+// LAW half_space.5  apply(m, h) has at m(x) the class that h has at x, for points; for lines the
+//                   same parameters.
+// COST: a point some twenty operations in doubles, exact only near the boundary; a box the like,
+// exact (see quadric.hpp) only if it nearly touches; a line O(1) rational operations.
+//
+// Source: Davy and Dew, sections 3.2 and 3.4 (the domain of half-spaces); exactness is ours.
+
+#include <concepts>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "exactcsg/domain/point_class.hpp"
+#include "exactcsg/domain/quadric.hpp"
+#include "exactcsg/number/point.hpp"
+
+namespace exactcsg::domain {
+
+// A parameter at which a line meets the boundary. multiplicity: of the zero of f: 1 where the line
+// crosses, 2 where it touches (or passes through the apex of a cone); 0 where a line that lies in
+// the surface of one nappe ends to do so, at the apex.
+struct Crossing {
+  QuadraticNumber parameter;
+  int multiplicity = 1;
+};
+
+// LAW section.1  between.size() == crossings.size() + 1; crossings ascend, strictly between the
+//                bounds of the line's section. (The bounds are points: classify them as such.)
+struct Section {
+  std::vector<Crossing> crossings;
+  std::vector<PointClass> between;
+};
+
+// What the algorithms on trees need of a primitive; half-spaces are one model, a user's own type
+// another.
+template <class P>
+concept Domain = std::copyable<P> &&
+    requires(const P& primitive, const Point<P::dimension>& point, const Box<P::dimension>& box,
+             const LineSection<P::dimension>& line) {
+  { classify(primitive, point) } -> std::same_as<PointClass>;
+  { classify(primitive, box) } -> std::same_as<csg::Membership>;
+  { section(primitive, line) } -> std::same_as<Section>;
+  { complement(primitive) } -> std::same_as<P>;
+};
+
+template <std::size_t D>
+class HalfSpace {
+ public:
+  static constexpr std::size_t dimension = D;
+
+  // {x : f(x) <= 0}. REQUIRES f takes both signs round every point where it is zero.
+  explicit HalfSpace(Quadric<D> f) : data_(std::make_shared<const Data>(std::move(f))) {}
+  // {x : f(x) <= 0 and g(x) <= 0}.
+  // REQUIRES it is convex, and f > 0 where g = 0, but for one point, the apex, where f = 0.
+  HalfSpace(Quadric<D> f, LinearForm<D> g)
+      : data_(std::make_shared<const Data>(std::move(f), Quadric<D>(std::move(g)))) {}
+
+  const Quadric<D>& polynomial() const noexcept { return data_->f; }
+  // g of a half-space that has only one nappe.
+  const std::optional<Quadric<D>>& nappe() const noexcept { return data_->g; }
+  // True of the complement of what f (and g) describe.
+  bool is_complement() const noexcept { return is_complement_; }
+
+  friend HalfSpace complement(HalfSpace half_space) {
+    half_space.is_complement_ = !half_space.is_complement_;
+    return half_space;
+  }
+  // As written, not as a point set.
+  friend bool operator==(const HalfSpace& a, const HalfSpace& b) {
+    return a.is_complement_ == b.is_complement_ &&
+           (a.data_ == b.data_ || (a.data_->f == b.data_->f && a.data_->g == b.data_->g));
+  }
+
+ private:
+  struct Data {
+    explicit Data(Quadric<D> polynomial, std::optional<Quadric<D>> nappe = std::nullopt)
+        : f(std::move(polynomial)), g(std::move(nappe)) {}
+    Quadric<D> f;
+    std::optional<Quadric<D>> g;
+  };
+  std::shared_ptr<const Data> data_;
+  bool is_complement_ = false;
+};
+
+namespace detail {
+
+constexpr csg::Membership complement_if(bool complemented, csg::Membership value) {
+  if (!complemented || value == csg::Membership::Unknown) return value;
+  return value == csg::Membership::In ? csg::Membership::Out : csg::Membership::In;
+}
+constexpr PointClass complement_if(bool complemented, PointClass value) {
+  return complemented ? complement(value) : value;
+}
+
+constexpr PointClass class_of(Sign f) {
+  return f == Sign::Negative ? PointClass::In : f == Sign::Zero ? PointClass::On : PointClass::Out;
+}
+// Where f <= 0, g is zero at the apex only.
+constexpr PointClass class_of(Sign f, Sign g) {
+  return g == Sign::Positive ? PointClass::Out : class_of(f);
+}
+
+// In or Out if the doubles are certain for the whole box; Unknown if they are not.
+template <std::size_t D>
+csg::Membership filtered_class(const HalfSpace<D>& half_space,
+                               const std::array<CertifiedDouble, D>& middle,
+                               const std::array<double, D>& extent) {
+  const auto sign_in_box = [&](const Quadric<D>& f) {
+    const CertifiedDouble value = f.approximate(middle);
+    const double reach = value.error + f.variation(middle, extent);
+    return value.value > reach    ? Sign::Positive
+           : -value.value > reach ? Sign::Negative
+                                  : Sign::Zero;
+  };
+  const Sign f = sign_in_box(half_space.polynomial());
+  const Sign g = half_space.nappe() ? sign_in_box(*half_space.nappe()) : Sign::Negative;
+  if (f == Sign::Positive || g == Sign::Positive) return csg::Membership::Out;
+  return f == Sign::Negative && g == Sign::Negative ? csg::Membership::In
+                                                    : csg::Membership::Unknown;
+}
+
+template <std::size_t D>
+csg::Membership filtered_class(const HalfSpace<D>& half_space, const Box<D>& box) {
+  std::array<CertifiedDouble, D> middle;
+  std::array<double, D> extent{};
+  for (std::size_t i = 0; i < D; ++i) {
+    const CertifiedDouble low = box.lower().approximate()[i];
+    const CertifiedDouble high = box.upper().approximate()[i];
+    const double m = low.value / 2 + high.value / 2;
+    middle[i] = {m, 0};
+    extent[i] = std::max(high.value + high.error - m, m - low.value + low.error) * (1 + 0x1p-50) +
+                0x1p-1000;
+  }
+  return filtered_class(half_space, middle, extent);
+}
+
+// Without the complement.
+template <std::size_t D>
+csg::Membership exact_class(const HalfSpace<D>& half_space, const Box<D>& box) {
+  const Quadric<D>& f = half_space.polynomial();
+  bool has_interior = false;
+  bool has_exterior = false;
+  for_each_extreme_candidate(f, box, [&](const Coordinates<D>& point) {
+    const Sign sign = sign_of(f(point));
+    const Sign nappe = half_space.nappe() ? sign_of((*half_space.nappe())(point)) : Sign::Negative;
+    has_interior = has_interior || (sign == Sign::Negative && nappe == Sign::Negative);
+    // One nappe is convex: a box of which no corner is outside is a subset.
+    has_exterior = has_exterior || sign == Sign::Positive || nappe == Sign::Positive;
+    return !(has_interior && has_exterior);
+  });
+  if (!has_interior) return csg::Membership::Out;
+  return has_exterior ? csg::Membership::Unknown : csg::Membership::In;
+}
+
+}  // namespace detail
+
+template <std::size_t D>
+PointClass classify(const HalfSpace<D>& half_space, const Point<D>& point,
+                    TierStatistics* statistics = nullptr) {
+  const Sign f = half_space.polynomial().sign(point, statistics);
+  const Sign g = half_space.nappe() && f != Sign::Positive
+                     ? half_space.nappe()->sign(point, statistics)
+                     : Sign::Negative;
+  return detail::complement_if(half_space.is_complement(), detail::class_of(f, g));
+}
+
+template <std::size_t D>
+csg::Membership classify(const HalfSpace<D>& half_space, const Box<D>& box) {
+  csg::Membership result = detail::filtered_class(half_space, box);
+  if (result == csg::Membership::Unknown) result = detail::exact_class(half_space, box);
+  return detail::complement_if(half_space.is_complement(), result);
+}
+
+namespace detail {
+
+// On the whole line, without the complement; what is the sign in the interval after `count` roots?
+struct SectionBuilder {
+  QuadraticPolynomial f;
+  std::optional<QuadraticPolynomial> g;
+  Section section;
+
+  void add_crossings() {
+    if (f.is_zero()) {
+      if (g && g->linear != 0) {
+        section.crossings.push_back({QuadraticNumber(Rational(-g->constant / g->linear)), 0});
+      }
+      return;
+    }
+    for (RealRoot& root : real_roots(f)) {
+      if (!g || !is_positive(*g, root.value)) {
+        section.crossings.push_back({std::move(root.value), root.multiplicity});
+      }
+    }
+  }
+  void add_classes() {
+    for (std::size_t i = 0; i <= section.crossings.size(); ++i) {
+      const Rational inside = parameter_between(i);
+      section.between.push_back(
+          class_of(sign_of(f(inside)), g ? sign_of((*g)(inside)) : Sign::Negative));
+    }
+  }
+
+ private:
+  // linear t + constant > 0 at t = a + b sqrt(c)
+  static bool is_positive(const QuadraticPolynomial& linear, const QuadraticNumber& t) {
+    return sign_of(QuadraticNumber(linear.linear * t.rational_part() + linear.constant,
+                                   linear.linear * t.factor(), t.radicand())) == Sign::Positive;
+  }
+  Rational parameter_between(std::size_t i) const {
+    const auto& crossings = section.crossings;
+    if (crossings.empty()) return 0;
+    if (i == 0) return enclose(crossings.front().parameter, 0).lower - 1;
+    if (i == crossings.size()) return enclose(crossings.back().parameter, 0).upper + 1;
+    return rational_between(crossings[i - 1].parameter, crossings[i].parameter);
+  }
+};
+
+// Keeps what lies strictly between the bounds.
+inline void clip(Section& section, const std::optional<Rational>& begin,
+                 const std::optional<Rational>& end) {
+  auto& [crossings, between] = section;
+  if (end) {
+    const QuadraticNumber bound(*end);
+    while (!crossings.empty() && crossings.back().parameter >= bound) {
+      crossings.pop_back();
+      between.pop_back();
+    }
+  }
+  if (begin) {
+    const QuadraticNumber bound(*begin);
+    while (!crossings.empty() && crossings.front().parameter <= bound) {
+      crossings.erase(crossings.begin());
+      between.erase(between.begin());
+    }
+  }
+}
+
+}  // namespace detail
+
+template <std::size_t D>
+Section section(const HalfSpace<D>& half_space, const LineSection<D>& line) {
+  detail::SectionBuilder builder{restrict(half_space.polynomial(), line), std::nullopt, {}};
+  if (half_space.nappe()) builder.g = restrict(*half_space.nappe(), line);
+  builder.add_crossings();
+  builder.add_classes();
+  detail::clip(builder.section, line.begin, line.end);
+  for (PointClass& value : builder.section.between) {
+    value = detail::complement_if(half_space.is_complement(), value);
+  }
+  return std::move(builder.section);
+}
+
+namespace detail {
+
+template <std::size_t D>
+AffineRows<D> rows_of(const AffineMap& map) {
+  if constexpr (D == 3) {
+    return map.m;
+  } else {
+    return {{{map.m[0][0], map.m[0][1], map.m[0][3]}, {map.m[1][0], map.m[1][1], map.m[1][3]}}};
+  }
+}
+
+}  // namespace detail
+
+// In the plane, the map's effect on x and y. REQUIRES D = 3; or D = 2, and the map leaves z alone
+// and does not read it.
+template <std::size_t D>
+requires(D == 2 || D == 3) Point<D> apply(const AffineMap& map, const Point<D>& point) {
+  const AffineRows<D> rows = detail::rows_of<D>(map);
+  Coordinates<D> image;
+  for (std::size_t i = 0; i < D; ++i) {
+    image[i] = rows[i][D];
+    for (std::size_t j = 0; j < D; ++j) image[i] += rows[i][j] * point[j];
+  }
+  return image;
+}
+
+// REQUIRES the same. THROWS Error(SingularMap)
+template <std::size_t D>
+requires(D == 2 || D == 3) HalfSpace<D> apply(const AffineMap& map,
+                                              const HalfSpace<D>& half_space) {
+  if (determinant(map) == 0) throw Error(ErrorId::SingularMap, {"", ""});
+  const AffineRows<D> back = detail::rows_of<D>(inverse(map));
+  const Quadric<D> f = substitute(half_space.polynomial(), back);
+  const HalfSpace<D> image = half_space.nappe()
+                                 ? HalfSpace<D>(f, substitute(half_space.nappe()->linear(), back))
+                                 : HalfSpace<D>(f);
+  return half_space.is_complement() ? complement(image) : image;
+}
+
+static_assert(Domain<HalfSpace<2>> && Domain<HalfSpace<3>>);
+
+}  // namespace exactcsg::domain

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The domains that the conformance suite is run on: one row each. A row makes random sets together
+// with their definition in plain rational arithmetic, written here from the geometry (distances,
+// not the library's polynomials), and one point of the boundary.
+
+#include <functional>
+#include <tuple>
+
+#include "domain/random_rationals.hpp"
+#include "exactcsg/domain/half_spaces.hpp"
+
+namespace exactcsg::domain::test {
+
+template <class S, std::size_t D>
+struct Sample {
+  S set;
+  std::function<Rational(const Coordinates<D>&)> value;  // < 0 inside, 0 on the boundary
+  Coordinates<D> boundary_point;
+
+  PointClass reference(const Coordinates<D>& x) const {
+    const Rational at = value(x);
+    return at < 0 ? PointClass::In : at == 0 ? PointClass::On : PointClass::Out;
+  }
+};
+
+template <std::size_t D>
+Coordinates<D> difference(const Coordinates<D>& p, const Coordinates<D>& q) {
+  Coordinates<D> result;
+  for (std::size_t i = 0; i < D; ++i) result[i] = p[i] - q[i];
+  return result;
+}
+template <std::size_t D>
+Rational scalar_product(const Coordinates<D>& u, const Coordinates<D>& v) {
+  Rational result;
+  for (std::size_t i = 0; i < D; ++i) result += u[i] * v[i];
+  return result;
+}
+template <std::size_t D>
+Rational squared(const Coordinates<D>& v) {
+  return scalar_product(v, v);
+}
+template <std::size_t D>
+Coordinates<D> moved(const Coordinates<D>& p, const Rational& factor, const Coordinates<D>& v) {
+  Coordinates<D> result;
+  for (std::size_t i = 0; i < D; ++i) result[i] = p[i] + factor * v[i];
+  return result;
+}
+
+// Points where a filter cannot tell: second intersections of lines through a boundary point with
+// the surface, which are rational.
+template <std::size_t D>
+Coordinates<D> point_of_surface(const Quadric<D>& surface, const Coordinates<D>& boundary_point,
+                                Random& random) {
+  Coordinates<D> direction = random.direction<D>();
+  if (surface.is_linear()) {
+    // Along the surface: take away the part along the normal.
+    const Coordinates<D>& normal = surface.linear().normal;
+    direction =
+        moved(direction, Rational(-scalar_product(normal, direction) / squared(normal)), normal);
+    return moved(boundary_point, random.rational(), direction);
+  }
+  const LineSection<D> line{boundary_point, direction, {}, {}};
+  const QuadraticPolynomial along = restrict(surface, line);
+  if (along.square == 0) return boundary_point;
+  return line.at(Rational(-along.linear / along.square)).coordinates();
+}
+
+// What the rows of half-spaces share.
+template <std::size_t D>
+struct HalfSpaceRow {
+  static constexpr std::size_t dimension = D;
+  static constexpr bool is_exact_for_boxes = true;
+  static Coordinates<D> degenerate_point(const Sample<HalfSpace<D>, D>& sample, Random& random) {
+    return point_of_surface(sample.set.polynomial(), sample.boundary_point, random);
+  }
+};
+
+struct LineRow : HalfSpaceRow<2> {
+  static constexpr const char* name = "line";
+  static Sample<HalfSpace<2>, 2> sample(Random& random) {
+    const Coordinates<2> p = random.coordinates<2>();
+    const Coordinates<2> d = random.direction<2>();
+    const auto value = [p, d](const Coordinates<2>& x) {
+      return Rational(d[1] * (x[0] - p[0]) - d[0] * (x[1] - p[1]));
+    };
+    return {make_line(Point<2>(p), Point<2>(moved(p, 1, d))), value, p};
+  }
+};
+
+// Centre and a boundary point; the radius is their distance, mostly irrational.
+template <std::size_t D>
+Sample<HalfSpace<D>, D> sample_of_ball(Random& random) {
+  const Coordinates<D> centre = random.coordinates<D>();
+  const Coordinates<D> to_boundary = random.direction<D>();
+  const Rational squared_radius = squared(to_boundary);
+  const auto value = [centre, squared_radius](const Coordinates<D>& x) {
+    return Rational(squared(difference(x, centre)) - squared_radius);
+  };
+  return {make_ball<D>(centre, squared_radius), value, moved(centre, 1, to_boundary)};
+}
+
+struct DiscRow : HalfSpaceRow<2> {
+  static constexpr const char* name = "disc";
+  static Sample<HalfSpace<2>, 2> sample(Random& random) { return sample_of_ball<2>(random); }
+};
+
+struct SphereRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "sphere";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) { return sample_of_ball<3>(random); }
+};
+
+struct PlaneRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "plane";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) {
+    const Coordinates<3> p = random.coordinates<3>();
+    const Coordinates<3> normal = random.direction<3>();
+    const auto value = [p, normal](const Coordinates<3>& x) {
+      return Rational(scalar_product(normal, difference(x, p)));
+    };
+    return {make_plane(normal, Rational(-scalar_product(normal, p))), value, p};
+  }
+};
+
+// Of the vector from the axis's point to x: the part along the axis, and the one across it.
+struct AxialParts {
+  Rational height;            // along, in units of the direction's length
+  Rational squared_distance;  // across
+  AxialParts(const Axis& axis, const Coordinates<3>& x) {
+    const Coordinates<3> v = difference(x, axis.point.coordinates());
+    height = scalar_product(v, axis.direction) / squared(axis.direction);
+    squared_distance = squared(moved(v, Rational(-height), axis.direction));
+  }
+};
+
+inline Axis random_axis(Random& random) {
+  Axis axis{random.coordinates<3>(), random.direction<3>()};
+  if (random.one_in(3)) axis.direction = {0, 0, 1};
+  return axis;
+}
+
+struct CylinderRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "cylinder";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) {
+    const Axis axis = random_axis(random);
+    for (;;) {
+      const Coordinates<3> p = random.coordinates<3>();
+      const Rational squared_radius = AxialParts(axis, p).squared_distance;
+      if (squared_radius == 0) continue;
+      const auto value = [axis, squared_radius](const Coordinates<3>& x) {
+        return Rational(AxialParts(axis, x).squared_distance - squared_radius);
+      };
+      return {make_cylinder(axis, squared_radius), value, p};
+    }
+  }
+};
+
+template <bool one_nappe>
+Sample<HalfSpace<3>, 3> sample_of_cone(Random& random) {
+  Axis axis = random_axis(random);
+  for (;;) {
+    const Coordinates<3> p = random.coordinates<3>();
+    const AxialParts parts(axis, p);
+    if (parts.height == 0 || parts.squared_distance == 0) continue;
+    if (one_nappe && parts.height < 0) {
+      for (Rational& component : axis.direction) component = -component;
+    }
+    const Rational length = squared(axis.direction);
+    const Rational squared_slope = parts.squared_distance / (parts.height * parts.height * length);
+    const auto value = [axis, squared_slope, length](const Coordinates<3>& x) {
+      const AxialParts at(axis, x);
+      if (one_nappe && at.height < 0) return squared(difference(x, axis.point.coordinates()));
+      return Rational(at.squared_distance - squared_slope * at.height * at.height * length);
+    };
+    return {one_nappe ? make_cone(axis, squared_slope) : make_double_cone(axis, squared_slope),
+            value, p};
+  }
+}
+
+struct DoubleConeRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "double_cone";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) { return sample_of_cone<false>(random); }
+};
+
+struct ConeRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "cone";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) { return sample_of_cone<true>(random); }
+};
+
+// One row for each domain.
+using Rows = std::tuple<LineRow, DiscRow, PlaneRow, SphereRow, CylinderRow, DoubleConeRow, ConeRow>;
+
+}  // namespace exactcsg::domain::test
