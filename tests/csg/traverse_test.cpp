@@ -12,8 +12,8 @@
 #include "csg/chains.hpp"
 #include "csg/random_tree.hpp"
 #include "exactcsg/csg/flat_tree.hpp"
-#include "exactcsg/csg/print.hpp"
 #include "exactcsg/csg/prune.hpp"
+#include "exactcsg/csg/text.hpp"
 
 namespace exactcsg::csg {
 namespace {
@@ -35,14 +35,14 @@ constexpr auto absorbing = [](Membership m, BooleanOperator op) { return absorbs
 constexpr FullEmptyResult constants{Membership::In, Membership::Out};
 
 constexpr auto combine_texts = [](std::string a, BooleanOperator op, std::string b) {
-  return "(" + a + " " + std::string(operator_name(op)) + " " + b + ")";
+  return "(" + a + " " + BooleanCodes{}(op) + " " + b + ")";
 };
 constexpr auto text = [](int i) { return std::to_string(i); };
 
 // LAW traverse.1, by hand: n-ary operators fold from the left.
 TEST(Traverse, FoldsFromTheLeft) {
   const TestTree tree = TestTree::compose(Difference, {leaf(1), unite(leaf(2), leaf(3)), leaf(4)});
-  const std::string expected = "((1 difference (2 union 3)) difference 4)";
+  const std::string expected = "((1 - (2 + 3)) - 4)";
   EXPECT_EQ(traverse(tree, text, combine_texts), expected);
   EXPECT_EQ(traverse(flatten(tree, same), text, combine_texts), expected);
   EXPECT_EQ(traverse(leaf(5), text, combine_texts), "5");
@@ -51,10 +51,10 @@ TEST(Traverse, FoldsFromTheLeft) {
 
 TEST(Traverse, SpecialResults) {
   const TestTree tree = unite(TestTree::full(), TestTree::empty());
-  EXPECT_EQ(traverse(tree, text, combine_texts, FullEmptyResult{"F", "E"}), "(F union E)");
+  EXPECT_EQ(traverse(tree, text, combine_texts, FullEmptyResult{"F", "E"}), "(F + E)");
   const auto make_full = [] { return std::string("made"); };
   EXPECT_EQ(traverse(complement(leaf(1)), text, combine_texts, FullResult{make_full}),
-            "(made difference 1)");
+            "(made - 1)");
 }
 
 TEST(Traverse, AMissingSpecialResultIsAnError) {

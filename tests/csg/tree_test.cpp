@@ -12,7 +12,7 @@
 #include "csg/chains.hpp"
 #include "csg/random_tree.hpp"
 #include "exactcsg/csg/flat_tree.hpp"
-#include "exactcsg/csg/print.hpp"
+#include "exactcsg/csg/text.hpp"
 
 namespace exactcsg::csg {
 namespace {
@@ -235,11 +235,10 @@ TEST(FlatTree, EqualityLooksAtEverything) {
 TEST(Print, WritesOperatorsAndOperands) {
   const TestTree tree =
       unite(subtract(TestTree::full(), leaf(1)), intersect(leaf(2), TestTree::empty()));
-  EXPECT_EQ(to_text(tree, [](int i) { return std::to_string(i); }),
-            "union(difference(full, 1), intersection(2, empty))");
+  EXPECT_EQ(to_text(tree, [](int i) { return std::to_string(i); }), "(+ (- full 1) (& 2 empty))");
   EXPECT_EQ(
       to_text(flatten(tree, [](int i) { return i; }), [](int i) { return std::to_string(i); }),
-      "union(difference(full, 1), intersection(2, empty))");
+      "(+ (- full 1) (& 2 empty))");
 }
 
 // LAW tree.4; ThreadSanitizer is the judge.

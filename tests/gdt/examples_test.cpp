@@ -13,11 +13,13 @@
 
 #include "exactcsg/csg/flat_tree.hpp"
 #include "exactcsg/csg/prune.hpp"
+#include "exactcsg/csg/text.hpp"
 #include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/gdt/create.hpp"
 #include "exactcsg/gdt/overlay.hpp"
 #include "exactcsg/gdt/path.hpp"
 #include "exactcsg/gdt/ray_walk.hpp"
+#include "exactcsg/gdt/text.hpp"
 #include "exactcsg/gdt/traverse.hpp"
 #include "exactcsg/number/exact.hpp"
 
@@ -26,6 +28,7 @@ namespace {
 
 struct Interval {
   double from, to;
+  friend bool operator==(const Interval&, const Interval&) = default;
 };
 using Solid = csg::Tree<Interval, csg::BooleanOperator>;
 const Solid solid = csg::subtract(Solid::primitive({0, 10}), Solid::primitive({3, 4}));
@@ -138,6 +141,24 @@ TEST(Examples, FollowAPathAndCombineTwoDivisions) {
   const auto values = std::vector(sum.terminals().begin(), sum.terminals().end());
   // Below y = 2 only the 5; above, both parts of each half.
   EXPECT_EQ(values, (std::vector{6, 5, 6, 8, 5, 7}));
+}
+
+TEST(Examples, WriteAndRead) {
+  const auto put = [](TextWriter& out, const Interval& i) {
+    out.write(i.from);
+    out.separate();
+    out.write(i.to);
+  };
+  const auto get = [](TextReader& in) {
+    const auto from = in.number<double>();
+    return Interval{from, in.number<double>()};
+  };
+  EXPECT_EQ(csg::to_text(solid, put), "(- 0 10 3 4)");
+  EXPECT_TRUE(csg::from_text("(- 0 10 3 4)", get) == solid);
+  const auto cells = gdt::from_text("[full [(- 0 10 3 4) empty]]",
+                                    [&](TextReader& in) { return csg::get(in, get); });
+  EXPECT_EQ(gdt::to_text(cells, [&](TextWriter& out, const Solid& s) { csg::put(out, s, put); }),
+            "[full [(- 0 10 3 4) empty]]");
 }
 
 }  // namespace

@@ -45,6 +45,18 @@ class Tree {
   using Terminal = T;
   using Label = N;
 
+ private:
+  static constexpr std::uint32_t terminal_mark = std::numeric_limits<std::uint32_t>::max();
+
+  // The children of a node are neighbours, so that one number leads to any of them.
+  struct Record {
+    std::uint32_t first_child = 0;
+    std::uint32_t degree = terminal_mark;
+    std::uint32_t payload = 0;  // of a terminal or label
+    friend bool operator==(const Record&, const Record&) = default;
+  };
+
+ public:
   struct Children;
 
   // One node of a tree that outlives it.
@@ -98,6 +110,25 @@ class Tree {
   // COST: O(nodes of the children); to build a large tree, use create.
   static Tree interior(std::vector<Tree> children, N label = {});
 
+  // Makes a tree from what a reader meets, in order.
+  class Builder {
+   public:
+    void open(N label);  // an interior node, whose children follow
+    void terminal(T value);
+    void close();  // REQUIRES an open node
+    // REQUIRES every node closed, and exactly one that is not a child of another.
+    Tree take() &&;
+
+   private:
+    struct Open {
+      Record record;
+      std::size_t first_done;
+    };
+    Tree tree_;  // the children of a node are appended when it is closed
+    std::vector<Open> open_;
+    std::vector<Record> done_;  // whose fathers are open
+  };
+
   // From the linked form that create builds. COST: O(nodes).
   explicit Tree(detail::Subtree<T, N> root);
 
@@ -138,16 +169,6 @@ class Tree {
  private:
   template <class, class>
   friend class Tree;
-  static constexpr std::uint32_t terminal_mark = std::numeric_limits<std::uint32_t>::max();
-
-  // The children of a node are neighbours, so that one number leads to any of them.
-  struct Record {
-    std::uint32_t first_child = 0;
-    std::uint32_t degree = terminal_mark;
-    std::uint32_t payload = 0;  // of a terminal or label
-    friend bool operator==(const Record&, const Record&) = default;
-  };
-
   // One label is as good as all where it says nothing.
   struct OneLabel {
     N label{};
@@ -161,11 +182,66 @@ class Tree {
   Tree() noexcept = default;
   void fill(std::uint32_t index, detail::Subtree<T, N>& from);
   void adopt(std::size_t index, Tree child);
+  static void require_room(std::size_t nodes, std::size_t more);
 
   std::vector<Record> nodes_;
   Labels labels_;
   std::vector<T> terminals_;
 };
+
+template <class T, class N>
+void Tree<T, N>::require_room(std::size_t nodes, std::size_t more) {
+  if (more >= terminal_mark - nodes) {
+    throw Error(ErrorId::TooLarge, {"more than 2^32 - 2 nodes in a decomposition tree", ""});
+  }
+}
+
+template <class T, class N>
+void Tree<T, N>::Builder::open(N label) {
+  const auto index = static_cast<std::uint32_t>(tree_.labels_.size());
+  tree_.labels_.push_back(std::move(label));
+  open_.push_back({{0, 0, index}, done_.size()});
+}
+
+template <class T, class N>
+void Tree<T, N>::Builder::terminal(T value) {
+  require_room(tree_.terminals_.size(), 1);
+  done_.push_back({0, terminal_mark, static_cast<std::uint32_t>(tree_.terminals_.size())});
+  tree_.terminals_.push_back(std::move(value));
+}
+
+template <class T, class N>
+void Tree<T, N>::Builder::close() {
+  const auto first = done_.begin() + static_cast<std::ptrdiff_t>(open_.back().first_done);
+  const auto degree = static_cast<std::size_t>(done_.end() - first);
+  require_room(tree_.nodes_.size(), degree);
+  Record record = open_.back().record;
+  record.first_child = static_cast<std::uint32_t>(tree_.nodes_.size());
+  record.degree = static_cast<std::uint32_t>(degree);
+  tree_.nodes_.insert(tree_.nodes_.end(), first, done_.end());
+  done_.erase(first, done_.end());
+  done_.push_back(record);
+  open_.pop_back();
+}
+
+// Equal trees have equal arrays: the order of the blocks of children is that of fill.
+template <class T, class N>
+Tree<T, N> Tree<T, N>::Builder::take() && {
+  std::vector<Record> nodes{done_.back()};
+  nodes.reserve(tree_.nodes_.size() + 1);
+  std::vector<std::uint32_t> pending{0};
+  while (!pending.empty()) {
+    Record& record = nodes[pending.back()];
+    pending.pop_back();
+    if (record.degree == terminal_mark) continue;
+    const auto first = tree_.nodes_.begin() + record.first_child;
+    record.first_child = static_cast<std::uint32_t>(nodes.size());
+    for (std::uint32_t i = record.degree; i-- > 0;) pending.push_back(record.first_child + i);
+    nodes.insert(nodes.end(), first, first + record.degree);
+  }
+  tree_.nodes_ = std::move(nodes);
+  return std::move(tree_);
+}
 
 template <class T, class N>
 void Tree<T, N>::fill(std::uint32_t index, detail::Subtree<T, N>& from) {
@@ -175,9 +251,7 @@ void Tree<T, N>::fill(std::uint32_t index, detail::Subtree<T, N>& from) {
     return;
   }
   const std::size_t degree = from.children().size();
-  if (degree >= terminal_mark - nodes_.size()) {
-    throw Error(ErrorId::TooLarge, {"more than 2^32 - 2 nodes in a decomposition tree", ""});
-  }
+  require_room(nodes_.size(), degree);
   nodes_[index] = {static_cast<std::uint32_t>(nodes_.size()), static_cast<std::uint32_t>(degree),
                    static_cast<std::uint32_t>(labels_.size())};
   labels_.push_back(std::move(from.label()));
@@ -216,9 +290,7 @@ Tree<T, N> Tree<T, N>::interior(std::vector<Tree> children, N label) {
 
 template <class T, class N>
 void Tree<T, N>::adopt(std::size_t index, Tree child) {
-  if (child.nodes_.size() >= terminal_mark - nodes_.size()) {
-    throw Error(ErrorId::TooLarge, {"more than 2^32 - 2 nodes in a decomposition tree", ""});
-  }
+  require_room(nodes_.size(), child.nodes_.size());
   const auto nodes_before = static_cast<std::uint32_t>(nodes_.size() - 1);  // less the child's root
   const auto terminals_before = static_cast<std::uint32_t>(terminals_.size());
   const auto labels_before = static_cast<std::uint32_t>(labels_.size());
