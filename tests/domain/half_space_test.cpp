@@ -125,7 +125,8 @@ TEST(Lines, LinesInTheSurfaceAreOn) {
   EXPECT_EQ(one.crossings[0].parameter, QuadraticNumber(-1));
   EXPECT_EQ(one.crossings[0].multiplicity, 0);
   EXPECT_EQ(one.between, (std::vector{PointClass::Out, PointClass::On}));
-  EXPECT_EQ(section(make_double_cone(axis, 1), along).between, std::vector{PointClass::On});
+  EXPECT_EQ(section(make_double_cone(axis, 1), along).between,
+            (std::vector{PointClass::On, PointClass::On}));
   EXPECT_EQ(section(make_cylinder(axis, 25), whole_line<3>({3, 4, 5}, {0, 0, 1})).between,
             std::vector{PointClass::On});
   // Along the axis of one nappe: enters at the apex.

@@ -9,6 +9,8 @@
 #include <tuple>
 
 #include "domain/random_rationals.hpp"
+#include "exactcsg/domain/bounded_primitives.hpp"
+#include "exactcsg/domain/classify.hpp"
 #include "exactcsg/domain/half_spaces.hpp"
 
 namespace exactcsg::domain::test {
@@ -188,7 +190,146 @@ struct ConeRow : HalfSpaceRow<3> {
   static Sample<HalfSpace<3>, 3> sample(Random& random) { return sample_of_cone<true>(random); }
 };
 
+// A bounded primitive: convex, so that its value is the greatest of those of its surfaces.
+struct TreeSample : Sample<Solid3, 3> {
+  std::function<Coordinates<3>(Random&)> on_surface;
+};
+struct TreeRow {
+  static constexpr std::size_t dimension = 3;
+  static constexpr bool is_exact_for_boxes = false;
+  static Coordinates<3> degenerate_point(const TreeSample& sample, Random& random) {
+    return sample.on_surface(random);
+  }
+};
+
+// Coordinates on, between and beyond those of the box.
+inline Coordinates<3> point_of_grid(const Box<3>& box, Random& random) {
+  Coordinates<3> point;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rational size = box.upper()[i] - box.lower()[i];
+    point[i] = box.lower()[i] + size * random.integer(-1, 4) / 3;
+  }
+  return point;
+}
+
+inline Rational value_of_box(const Box<3>& box, const Coordinates<3>& x) {
+  Rational value = box.lower()[0] - x[0];
+  for (std::size_t i = 0; i < 3; ++i) {
+    value = std::max({value, Rational(box.lower()[i] - x[i]), Rational(x[i] - box.upper()[i])});
+  }
+  return value;
+}
+
+struct BlockRow : TreeRow {
+  static constexpr const char* name = "block";
+  static TreeSample sample(Random& random) {
+    const Box<3> box = random.box<3>();
+    return {{make_block(box), [box](const auto& x) { return value_of_box(box, x); },
+             box.lower().coordinates()},
+            [box](Random& r) { return point_of_grid(box, r); }};
+  }
+};
+
+struct WedgeRow : TreeRow {
+  static constexpr const char* name = "wedge";
+  static TreeSample sample(Random& random) {
+    const Box<3> box = random.box<3>();
+    const auto value = [box](const Coordinates<3>& x) {
+      Rational sum = -1;
+      for (std::size_t i = 0; i < 2; ++i) {
+        sum += (x[i] - box.lower()[i]) / (box.upper()[i] - box.lower()[i]);
+      }
+      return std::max(value_of_box(box, x), sum);
+    };
+    return {{make_wedge(box), value, box.lower().coordinates()},
+            [box](Random& r) { return point_of_grid(box, r); }};
+  }
+};
+
+struct BoundedBallRow : TreeRow {
+  static constexpr const char* name = "bounded_ball";
+  static TreeSample sample(Random& random) {
+    const Coordinates<3> centre = random.coordinates<3>();
+    const Coordinates<3> radius = random.direction<3>();
+    const Rational squared_radius = squared(radius);
+    const auto value = [=](const Coordinates<3>& x) {
+      return Rational(squared(difference(x, centre)) - squared_radius);
+    };
+    const Solid3 ball = make_bounded_ball(centre, squared_radius);
+    const Coordinates<3> pole = moved(centre, 1, radius);
+    return {{ball, value, pole},
+            [=](Random& r) { return point_of_surface(ball.primitive().polynomial(), pole, r); }};
+  }
+};
+
+// Points of the round surface and of its rims: the point at that height on a line through `from`
+// along a ruling.
+struct BoundedCylinderRow : TreeRow {
+  static constexpr const char* name = "bounded_cylinder";
+  static TreeSample sample(Random& random) {
+    const Axis axis = random_axis(random);
+    for (;;) {
+      const Coordinates<3> p = random.coordinates<3>();
+      const AxialParts parts(axis, p);
+      const Rational squared_radius = parts.squared_distance;
+      if (squared_radius == 0) continue;
+      const auto value = [=](const Coordinates<3>& x) {
+        const AxialParts at(axis, x);
+        return std::max({Rational(-at.height), Rational(at.height - 1),
+                         Rational(at.squared_distance - squared_radius)});
+      };
+      const Quadric<3> surface = make_cylinder(axis, squared_radius).polynomial();
+      const auto on_surface = [=](Random& r) {
+        const Coordinates<3> point = point_of_surface(surface, p, r);
+        if (r.one_in(3)) return point;
+        const Rational height = r.one_in(2) ? Rational(r.integer(0, 1)) : r.rational();
+        return moved(point, Rational(height - AxialParts(axis, point).height), axis.direction);
+      };
+      return {{make_bounded_cylinder(axis, squared_radius), value,
+               moved(p, Rational(Rational(1, 2) - parts.height), axis.direction)},
+              on_surface};
+    }
+  }
+};
+
+struct BoundedConeRow : TreeRow {
+  static constexpr const char* name = "bounded_cone";
+  static TreeSample sample(Random& random) {
+    const Axis axis = random_axis(random);
+    const Coordinates<3> apex = moved(axis.point.coordinates(), 1, axis.direction);
+    for (;;) {
+      // A point of the rim: across the axis from its point.
+      const Coordinates<3> v = random.direction<3>();
+      const AxialParts parts(axis, moved(axis.point.coordinates(), 1, v));
+      const Rational squared_radius = parts.squared_distance;
+      if (squared_radius == 0) continue;
+      const Coordinates<3> rim =
+          moved(moved(axis.point.coordinates(), 1, v), Rational(-parts.height), axis.direction);
+      const auto value = [=](const Coordinates<3>& x) {
+        const AxialParts at(axis, x);
+        const Rational below = 1 - at.height;
+        if (below < 0) return squared(difference(x, apex));
+        return std::max(Rational(-at.height),
+                        Rational(at.squared_distance - squared_radius * below * below));
+      };
+      const Solid3 cone = make_bounded_cone(axis, squared_radius);
+      const Quadric<3> surface = cone.children().back().primitive().polynomial();
+      const auto on_surface = [=](Random& r) {
+        if (r.one_in(10)) return apex;
+        const Coordinates<3> point = point_of_surface(surface, rim, r);
+        const Rational below = 1 - AxialParts(axis, point).height;
+        if (r.one_in(2) || below == 0) return point;
+        // Along the ruling to the base, or anywhere.
+        const Rational factor = r.one_in(2) ? Rational(1 / below) : r.rational();
+        return moved(apex, factor, difference(point, apex));
+      };
+      return {{cone, value, rim}, on_surface};
+    }
+  }
+};
+
 // One row for each domain.
-using Rows = std::tuple<LineRow, DiscRow, PlaneRow, SphereRow, CylinderRow, DoubleConeRow, ConeRow>;
+using Rows = std::tuple<LineRow, DiscRow, PlaneRow, SphereRow, CylinderRow, DoubleConeRow, ConeRow,
+                        BlockRow, BoundedBallRow, BoundedCylinderRow, BoundedConeRow, WedgeRow>;
 
 }  // namespace exactcsg::domain::test

@@ -36,8 +36,8 @@
 namespace exactcsg::domain {
 
 // A parameter at which a line meets the boundary. multiplicity: of the zero of f: 1 where the line
-// crosses, 2 where it touches (or passes through the apex of a cone); 0 where a line that lies in
-// the surface of one nappe ends to do so, at the apex.
+// crosses, 2 where it touches (or passes through the apex of a cone); 0 at the apex of a line that
+// lies in the cone's surface.
 struct Crossing {
   QuadraticNumber parameter;
   int multiplicity = 1;
@@ -192,19 +192,28 @@ csg::Membership classify(const HalfSpace<D>& half_space, const Box<D>& box) {
 
 namespace detail {
 
-// On the whole line, without the complement; what is the sign in the interval after `count` roots?
+// A parameter strictly between crossing i-1 and crossing i, or a bound in the place of either.
+inline Rational parameter_between(const std::vector<Crossing>& crossings, std::size_t i,
+                                  const std::optional<Rational>& begin,
+                                  const std::optional<Rational>& end) {
+  using Bound = std::optional<QuadraticNumber>;
+  const auto bound = [](const std::optional<Rational>& value) {
+    return value ? Bound(QuadraticNumber(*value)) : Bound();
+  };
+  const Bound low = i > 0 ? Bound(crossings[i - 1].parameter) : bound(begin);
+  const Bound high = i < crossings.size() ? Bound(crossings[i].parameter) : bound(end);
+  if (low && high) return rational_between(*low, *high);
+  if (low) return enclose(*low, 0).upper + 1;
+  return high ? Rational(enclose(*high, 0).lower - 1) : Rational(0);
+}
+
+// On the whole line, without the complement.
 struct SectionBuilder {
   QuadraticPolynomial f;
   std::optional<QuadraticPolynomial> g;
   Section section;
 
   void add_crossings() {
-    if (f.is_zero()) {
-      if (g && g->linear != 0) {
-        section.crossings.push_back({QuadraticNumber(Rational(-g->constant / g->linear)), 0});
-      }
-      return;
-    }
     for (RealRoot& root : real_roots(f)) {
       if (!g || !is_positive(*g, root.value)) {
         section.crossings.push_back({std::move(root.value), root.multiplicity});
@@ -213,7 +222,7 @@ struct SectionBuilder {
   }
   void add_classes() {
     for (std::size_t i = 0; i <= section.crossings.size(); ++i) {
-      const Rational inside = parameter_between(i);
+      const Rational inside = parameter_between(section.crossings, i, std::nullopt, std::nullopt);
       section.between.push_back(
           class_of(sign_of(f(inside)), g ? sign_of((*g)(inside)) : Sign::Negative));
     }
@@ -225,14 +234,24 @@ struct SectionBuilder {
     return sign_of(QuadraticNumber(linear.linear * t.rational_part() + linear.constant,
                                    linear.linear * t.factor(), t.radicand())) == Sign::Positive;
   }
-  Rational parameter_between(std::size_t i) const {
-    const auto& crossings = section.crossings;
-    if (crossings.empty()) return 0;
-    if (i == 0) return enclose(crossings.front().parameter, 0).lower - 1;
-    if (i == crossings.size()) return enclose(crossings.back().parameter, 0).upper + 1;
-    return rational_between(crossings[i - 1].parameter, crossings[i].parameter);
-  }
 };
+
+// Where the gradient of f vanishes on a line that lies in the surface, if at one point.
+template <std::size_t D>
+std::optional<Rational> apex_on(const Quadric<D>& f, const LineSection<D>& line) {
+  const Coordinates<D> here = f.gradient(line.origin);
+  const Coordinates<D> there = f.gradient(line.at(1).coordinates());
+  std::optional<Rational> apex;
+  for (std::size_t i = 0; i < D; ++i) {
+    const Rational slope = there[i] - here[i];
+    if (slope == 0 && here[i] == 0) continue;
+    if (slope == 0) return std::nullopt;
+    Rational zero = -here[i] / slope;
+    if (apex && *apex != zero) return std::nullopt;
+    apex = std::move(zero);
+  }
+  return apex;
+}
 
 // Keeps what lies strictly between the bounds.
 inline void clip(Section& section, const std::optional<Rational>& begin,
@@ -260,7 +279,11 @@ template <std::size_t D>
 Section section(const HalfSpace<D>& half_space, const LineSection<D>& line) {
   detail::SectionBuilder builder{restrict(half_space.polynomial(), line), std::nullopt, {}};
   if (half_space.nappe()) builder.g = restrict(*half_space.nappe(), line);
-  builder.add_crossings();
+  if (!builder.f.is_zero()) {
+    builder.add_crossings();
+  } else if (const auto apex = detail::apex_on(half_space.polynomial(), line)) {
+    builder.section.crossings.push_back({QuadraticNumber(*apex), 0});
+  }
   builder.add_classes();
   detail::clip(builder.section, line.begin, line.end);
   for (PointClass& value : builder.section.between) {

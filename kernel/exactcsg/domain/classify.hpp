@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Points, boxes and lines classified against CSG trees of half-spaces, or of other domains. [Exact]
+//
+// A tree stands for a regular closed set: Booleans are regularised.
+//
+// LAW classify.1  a point is In (Out) iff a ball round it lies in the set (in the complement), and
+//                 On otherwise, also where boundaries coincide: it is decided by the cells of its
+//                 neighbourhood (neighbourhood.hpp).
+// LAW classify.2  a box that is In (Out) is a subset of the set (has no inner point in common with
+//                 it). Unknown is conservative: mixed, or not told by the primitives one by one.
+// LAW classify.3  section(tree, line).between[i] is the class of the points between two crossings;
+//                 the crossings are all those of the primitives, those that are equal added up, so
+//                 that neighbouring classes may be the same. (simplified() leaves those out.)
+// LAW classify.4  apply(m, tree) has at m(x) the class that tree has at x.
+// THROWS Error(UndecidedNeighbourhood) for a point (or a line) where surfaces touch in a way that
+// neighbourhood.hpp does not decide and on which the answer depends; never on lines and discs, nor
+// on planes. REQUIRES for lines: no primitive is a doubly ruled surface. COST: O(nodes)
+// classifications; the neighbourhood of k surfaces at most O(k^3) more traversals of what is left
+// of the tree there.
+//
+// Source: Davy and Dew, section 3.2, example 1; Tilove; Requicha and Voelcker for On.
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "exactcsg/csg/prune.hpp"
+#include "exactcsg/csg/traverse.hpp"
+#include "exactcsg/csg/tree.hpp"
+#include "exactcsg/csg/walk.hpp"
+#include "exactcsg/domain/half_space.hpp"
+#include "exactcsg/domain/neighbourhood.hpp"
+
+namespace exactcsg::domain {
+
+namespace detail {
+
+template <class P, class Solve>
+csg::Membership membership_of(const csg::BooleanTree<P>& tree, Solve&& solve) {
+  return csg::traverse(tree, solve, csg::combine,
+                       csg::FullEmptyResult{csg::Membership::In, csg::Membership::Out},
+                       csg::absorbs);
+}
+
+// Of one primitive in the cell that the germ names. REQUIRES the point is On it
+template <std::size_t D>
+csg::Membership membership_at(const HalfSpace<D>& half_space, const Point<D>& point,
+                              const Germ<D>& germ) {
+  const auto sign_along = [&](const Quadric<D>& f) {
+    return germ.sign(f, f.gradient(point.coordinates()));
+  };
+  Sign f = sign_along(half_space.polynomial());
+  if (f == Sign::Zero) return csg::Membership::Unknown;
+  if (f == Sign::Negative && half_space.nappe() && half_space.nappe()->sign(point) == Sign::Zero) {
+    f = sign_along(*half_space.nappe());
+  }
+  return membership(complement_if(half_space.is_complement(), class_of(f)));
+}
+
+// REQUIRES every primitive of the tree is On at the point
+template <std::size_t D>
+PointClass classify_neighbourhood(const csg::BooleanTree<HalfSpace<D>>& tree,
+                                  const Point<D>& point) {
+  std::vector<const Quadric<D>*> surfaces;
+  csg::for_each_primitive(
+      tree, [&](const HalfSpace<D>& half_space) { surfaces.push_back(&half_space.polynomial()); });
+  std::sort(surfaces.begin(), surfaces.end());
+  surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
+  auto [germs, complete] = germs_at(point, std::span<const Quadric<D>* const>(surfaces));
+  bool has_in = false;
+  bool has_out = false;
+  for (const Germ<D>& germ : germs) {
+    const csg::Membership value = membership_of(tree, [&](const HalfSpace<D>& half_space) {
+      return membership_at(half_space, point, germ);
+    });
+    complete = complete && value != csg::Membership::Unknown;
+    has_in = has_in || value == csg::Membership::In;
+    has_out = has_out || value == csg::Membership::Out;
+    if (has_in && has_out) return PointClass::On;
+  }
+  if (complete) return has_in ? PointClass::In : PointClass::Out;
+  throw Error(ErrorId::UndecidedNeighbourhood,
+              {std::to_string(surfaces.size()) + " surfaces that touch", ""});
+}
+
+}  // namespace detail
+
+template <std::size_t D>
+requires(D == 2 || D == 3) PointClass
+    classify(const csg::BooleanTree<HalfSpace<D>>& tree, const Point<D>& point) {
+  const auto solve = [&](const HalfSpace<D>& half_space) {
+    return membership(classify(half_space, point));
+  };
+  csg::Membership known = detail::membership_of(tree, solve);
+  if (known == csg::Membership::Unknown) {
+    const auto local = csg::prune(tree, solve);
+    if (local.is_primitive()) return PointClass::On;
+    if (!local.is_empty() && !local.is_full()) return detail::classify_neighbourhood(local, point);
+    known = local.is_full() ? csg::Membership::In : csg::Membership::Out;
+  }
+  return known == csg::Membership::In ? PointClass::In : PointClass::Out;
+}
+
+template <Domain P>
+csg::Membership classify(const csg::BooleanTree<P>& tree, const Box<P::dimension>& box) {
+  return detail::membership_of(tree, [&](const P& primitive) { return classify(primitive, box); });
+}
+
+template <Domain P>
+Section section(const csg::BooleanTree<P>& tree, const LineSection<P::dimension>& line) {
+  Section result;
+  auto& crossings = result.crossings;
+  csg::for_each_primitive(tree, [&](const P& primitive) {
+    for (Crossing& crossing : section(primitive, line).crossings) {
+      crossings.push_back(std::move(crossing));
+    }
+  });
+  std::sort(crossings.begin(), crossings.end(),
+            [](const Crossing& a, const Crossing& b) { return a.parameter < b.parameter; });
+  std::size_t count = 0;
+  for (Crossing& crossing : crossings) {
+    if (count > 0 && crossings[count - 1].parameter == crossing.parameter) {
+      crossings[count - 1].multiplicity += crossing.multiplicity;
+    } else {
+      // A crossing is not moved onto itself.
+      if (&crossings[count] != &crossing) crossings[count] = std::move(crossing);
+      ++count;
+    }
+  }
+  crossings.resize(count);
+  for (std::size_t i = 0; i <= count; ++i) {
+    const Rational inside = detail::parameter_between(crossings, i, line.begin, line.end);
+    result.between.push_back(classify(tree, line.at(inside)));
+  }
+  return result;
+}
+
+// Without the crossings that have one class on both sides.
+inline Section simplified(const Section& section) {
+  Section result{{}, {section.between.front()}};
+  for (std::size_t i = 0; i < section.crossings.size(); ++i) {
+    if (section.between[i + 1] == result.between.back()) continue;
+    result.crossings.push_back(section.crossings[i]);
+    result.between.push_back(section.between[i + 1]);
+  }
+  return result;
+}
+
+template <std::size_t D>
+csg::BooleanTree<HalfSpace<D>> apply(const AffineMap& map,
+                                     const csg::BooleanTree<HalfSpace<D>>& tree) {
+  return csg::map(tree, [&](const HalfSpace<D>& half_space) { return apply(map, half_space); });
+}
+
+}  // namespace exactcsg::domain
