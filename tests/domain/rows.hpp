@@ -190,6 +190,27 @@ struct ConeRow : HalfSpaceRow<3> {
   static Sample<HalfSpace<3>, 3> sample(Random& random) { return sample_of_cone<true>(random); }
 };
 
+struct EllipsoidRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "ellipsoid";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) {
+    const Coordinates<3> centre = random.coordinates<3>();
+    Coordinates<3> semi_axes;
+    for (Rational& length : semi_axes) length = random.positive();
+    const auto value = [centre, semi_axes](const Coordinates<3>& x) {
+      Rational sum = -1;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Rational share = (x[i] - centre[i]) / semi_axes[i];
+        sum += share * share;
+      }
+      return sum;
+    };
+    Coordinates<3> squares;
+    for (std::size_t i = 0; i < 3; ++i) squares[i] = semi_axes[i] * semi_axes[i];
+    const Coordinates<3> end_of_axis{Rational(centre[0] + semi_axes[0]), centre[1], centre[2]};
+    return {make_ellipsoid<3>(centre, squares), value, end_of_axis};
+  }
+};
+
 // A bounded primitive: convex, so that its value is the greatest of those of its surfaces.
 struct TreeSample : Sample<Solid3, 3> {
   std::function<Coordinates<3>(Random&)> on_surface;
@@ -329,7 +350,18 @@ struct BoundedConeRow : TreeRow {
 };
 
 // One row for each domain.
-using Rows = std::tuple<LineRow, DiscRow, PlaneRow, SphereRow, CylinderRow, DoubleConeRow, ConeRow,
-                        BlockRow, BoundedBallRow, BoundedCylinderRow, BoundedConeRow, WedgeRow>;
+using Rows = std::tuple<LineRow,             //
+                        DiscRow,             //
+                        PlaneRow,            //
+                        SphereRow,           //
+                        CylinderRow,         //
+                        DoubleConeRow,       //
+                        ConeRow,             //
+                        EllipsoidRow,        //
+                        BlockRow,            //
+                        BoundedBallRow,      //
+                        BoundedCylinderRow,  //
+                        BoundedConeRow,      //
+                        WedgeRow>;
 
 }  // namespace exactcsg::domain::test

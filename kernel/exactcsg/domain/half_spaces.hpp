@@ -6,5 +6,6 @@
 #include "exactcsg/domain/ball.hpp"
 #include "exactcsg/domain/cone.hpp"
 #include "exactcsg/domain/cylinder.hpp"
+#include "exactcsg/domain/ellipsoid.hpp"
 #include "exactcsg/domain/line.hpp"
 #include "exactcsg/domain/plane.hpp"
