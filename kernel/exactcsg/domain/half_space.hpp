@@ -153,6 +153,31 @@ csg::Membership filtered_class(const HalfSpace<D>& half_space, const Box<D>& box
   return filtered_class(half_space, middle, extent);
 }
 
+// True if the doubles are certain that one corner is inside and another outside.
+template <std::size_t D>
+bool has_certainly_mixed_corners(const HalfSpace<D>& half_space, const Box<D>& box) {
+  const auto certain_sign = [](const CertifiedDouble& value) {
+    return value.value > value.error    ? Sign::Positive
+           : -value.value > value.error ? Sign::Negative
+                                        : Sign::Zero;
+  };
+  bool has_inside = false;
+  bool has_outside = false;
+  for (std::size_t upper = 0; upper < (std::size_t{1} << D); ++upper) {
+    std::array<CertifiedDouble, D> corner;
+    for (std::size_t i = 0; i < D; ++i) {
+      corner[i] = ((upper >> i & 1U) != 0 ? box.upper() : box.lower()).approximate()[i];
+    }
+    const Sign f = certain_sign(half_space.polynomial().approximate(corner));
+    const Sign g =
+        half_space.nappe() ? certain_sign(half_space.nappe()->approximate(corner)) : Sign::Negative;
+    has_inside = has_inside || (f == Sign::Negative && g == Sign::Negative);
+    has_outside = has_outside || f == Sign::Positive || g == Sign::Positive;
+    if (has_inside && has_outside) return true;
+  }
+  return false;
+}
+
 // Without the complement.
 template <std::size_t D>
 csg::Membership exact_class(const HalfSpace<D>& half_space, const Box<D>& box) {
@@ -186,7 +211,9 @@ PointClass classify(const HalfSpace<D>& half_space, const Point<D>& point,
 template <std::size_t D>
 csg::Membership classify(const HalfSpace<D>& half_space, const Box<D>& box) {
   csg::Membership result = detail::filtered_class(half_space, box);
-  if (result == csg::Membership::Unknown) result = detail::exact_class(half_space, box);
+  if (result == csg::Membership::Unknown && !detail::has_certainly_mixed_corners(half_space, box)) {
+    result = detail::exact_class(half_space, box);
+  }
   return detail::complement_if(half_space.is_complement(), result);
 }
 

@@ -94,7 +94,10 @@ class Quadric {
     for (std::size_t i = 0; i < D; ++i) {
       CertifiedDouble factor = approximate_linear_[i];
       if (!is_linear_) {
-        for (std::size_t j = 0; j < D; ++j) factor = factor + approximate_square_[i][j] * x[j];
+        for (std::size_t j = 0; j < D; ++j) {
+          const CertifiedDouble& coefficient = approximate_square_[i][j];
+          if (!is_exactly_zero(coefficient)) factor = factor + coefficient * x[j];
+        }
       }
       value = value + factor * x[i];
     }
@@ -138,8 +141,10 @@ class Quadric {
       CertifiedDouble slope = approximate_linear_[i];
       double curvature = 0;
       for (std::size_t j = 0; j < D && !is_linear_; ++j) {
-        slope = slope + CertifiedDouble{2, 0} * approximate_square_[i][j] * m[j];
-        curvature += magnitude(approximate_square_[i][j]) * extent[j];
+        const CertifiedDouble& coefficient = approximate_square_[i][j];
+        if (is_exactly_zero(coefficient)) continue;
+        slope = slope + CertifiedDouble{2, 0} * coefficient * m[j];
+        curvature += magnitude(coefficient) * extent[j];
       }
       bound += (magnitude(slope) + curvature) * extent[i];
     }
@@ -152,6 +157,7 @@ class Quadric {
   }
 
  private:
+  static bool is_exactly_zero(const CertifiedDouble& x) { return x.value == 0 && x.error == 0; }
   static double magnitude(CertifiedDouble x) { return std::abs(x.value) + x.error; }
 
   // The filter's data first: they are what is usually read.

@@ -21,10 +21,13 @@ struct CertifiedDouble {
   double upper() const { return value + error + 0x1p-52 * std::abs(value); }
 };
 
-// Rounding to nearest is off by at most u |value|, or half the least subnormal.
+// Rounding to nearest is off by at most u |value|, or half the least subnormal. Subnormal errors,
+// which are slow to compute with, are avoided.
 inline CertifiedDouble certified_double_of(const Rational& value) {
+  if (value == 0) return {};
   const double nearest = nearest_double(value);
-  return {nearest, 0x1p-53 * std::abs(nearest) * (1 + 0x1p-51) + 0x1p-1074};
+  const double magnitude = std::abs(nearest);
+  return {nearest, magnitude < 0x1p-900 ? 0x1p-950 : 0x1p-53 * magnitude * (1 + 0x1p-51)};
 }
 
 // Each operation's own rounding is at most u |result| (u = 2^-53) plus half the least subnormal;
