@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "exactcsg/gdt/subtree.hpp"
+#include "exactcsg/skeleton/executor.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg::gdt {
@@ -135,7 +136,7 @@ class Tree {
   Node root() const noexcept { return Node(*this, 0); }
   std::size_t node_count() const noexcept { return nodes_.size(); }
   // From left to right.
-  std::span<const T> terminals() const noexcept { return terminals_; }
+  std::span<const T> terminals() const noexcept { return {terminals_.data(), terminals_.size()}; }
 
   friend bool operator==(
       const Tree&, const Tree&) requires std::equality_comparable<T> && std::equality_comparable<N>
@@ -177,7 +178,7 @@ class Tree {
     void push_back(N) noexcept {}
     friend bool operator==(const OneLabel&, const OneLabel&) { return true; }
   };
-  using Labels = std::conditional_t<std::is_empty_v<N>, OneLabel, std::vector<N>>;
+  using Labels = std::conditional_t<std::is_empty_v<N>, OneLabel, skeleton::detail::Array<N>>;
 
   Tree() noexcept = default;
   void fill(std::uint32_t index, detail::Subtree<T, N>& from);
@@ -186,7 +187,7 @@ class Tree {
 
   std::vector<Record> nodes_;
   Labels labels_;
-  std::vector<T> terminals_;
+  skeleton::detail::Array<T> terminals_;
 };
 
 template <class T, class N>

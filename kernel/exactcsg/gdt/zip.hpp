@@ -90,6 +90,13 @@ struct ZipAlgorithm {
 
   R solve(Problem&& problem) { return solve_(std::as_const(problem.pair)); }
 
+  template <class Receive>
+  std::optional<R> expand(Problem& problem, Receive&& receive) {
+    if (is_leaf(problem)) return solve(std::move(problem));
+    divide(problem, receive);
+    return std::nullopt;
+  }
+
   R combine(std::span<R> results, Problem&& problem) {
     if constexpr (std::is_invocable_r_v<R, Combine&, std::span<R>>) {
       return combine_(results);
