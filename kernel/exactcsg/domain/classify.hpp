@@ -16,9 +16,13 @@
 // LAW classify.4  apply(m, tree) has at m(x) the class that tree has at x.
 // THROWS Error(UndecidedNeighbourhood) for a point (or a line) where surfaces touch in a way that
 // neighbourhood.hpp does not decide and on which the answer depends; never on lines and discs, nor
-// on planes. REQUIRES for lines: no primitive is a doubly ruled surface. COST: O(nodes)
-// classifications; the neighbourhood of k surfaces at most O(k^3) more traversals of what is left
-// of the tree there.
+// on planes. Of primitives that are not HalfSpace<2> or HalfSpace<3>, where several boundaries
+// meet.
+//
+// REQUIRES for lines: no primitive is a doubly ruled surface.
+//
+// COST: O(nodes) classifications; the neighbourhood of k surfaces at most O(k^3) more traversals of
+// what is left of the tree there.
 //
 // Source: Davy and Dew, section 3.2, example 1; Tilove; Requicha and Voelcker for On.
 
@@ -64,8 +68,8 @@ csg::Membership membership_at(const HalfSpace<D>& half_space, const Point<D>& po
 
 // REQUIRES every primitive of the tree is On at the point
 template <std::size_t D>
-PointClass classify_neighbourhood(const csg::BooleanTree<HalfSpace<D>>& tree,
-                                  const Point<D>& point) {
+requires(D == 2 || D == 3) PointClass
+    classify_neighbourhood(const csg::BooleanTree<HalfSpace<D>>& tree, const Point<D>& point) {
   std::vector<const Quadric<D>*> surfaces;
   csg::for_each_primitive(
       tree, [&](const HalfSpace<D>& half_space) { surfaces.push_back(&half_space.polynomial()); });
@@ -90,17 +94,20 @@ PointClass classify_neighbourhood(const csg::BooleanTree<HalfSpace<D>>& tree,
 
 }  // namespace detail
 
-template <std::size_t D>
-requires(D == 2 || D == 3) PointClass
-    classify(const csg::BooleanTree<HalfSpace<D>>& tree, const Point<D>& point) {
-  const auto solve = [&](const HalfSpace<D>& half_space) {
-    return membership(classify(half_space, point));
-  };
+template <Domain P>
+PointClass classify(const csg::BooleanTree<P>& tree, const Point<P::dimension>& point) {
+  const auto solve = [&](const P& primitive) { return membership(classify(primitive, point)); };
   csg::Membership known = detail::membership_of(tree, solve);
   if (known == csg::Membership::Unknown) {
     const auto local = csg::prune(tree, solve);
-    if (local.is_primitive()) return PointClass::On;
-    if (!local.is_empty() && !local.is_full()) return detail::classify_neighbourhood(local, point);
+    if (local.primitive_count() == 1) return PointClass::On;  // it, or its complement
+    if (!local.is_empty() && !local.is_full()) {
+      if constexpr (requires { detail::classify_neighbourhood(local, point); }) {
+        return detail::classify_neighbourhood(local, point);
+      } else {
+        throw Error(ErrorId::UndecidedNeighbourhood, {"several boundaries in one point", ""});
+      }
+    }
     known = local.is_full() ? csg::Membership::In : csg::Membership::Out;
   }
   return known == csg::Membership::In ? PointClass::In : PointClass::Out;
