@@ -28,6 +28,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "exactcsg/gdt/tree.hpp"
 #include "exactcsg/skeleton/divacon.hpp"
@@ -51,6 +52,42 @@ R combine_children(Combine& combine, std::span<R> results, const Node& node) {
   }
 }
 
+// What SequentialExecutor would do, but the nodes are at hand: no problem is made and moved.
+template <class R, class T, class N, class Solve, class Combine>
+R traverse_sequentially(const Tree<T, N>& tree, Solve& solve, Combine& combine) {
+  using Node = typename Tree<T, N>::Node;
+  struct Open {
+    Node node;
+    std::size_t next_child;
+    std::size_t first_result;
+  };
+  std::vector<Open> open;
+  skeleton::detail::Array<R> results;
+  Node node = tree.root();
+  for (;;) {
+    while (!node.is_terminal() && node.degree() > 0) {
+      open.push_back({node, 1, results.size()});
+      node = node.child(0);
+    }
+    if (node.is_terminal()) {
+      results.push_back(solve(node.terminal()));
+    } else {
+      results.push_back(combine_children<R>(combine, std::span<R>(), node));
+    }
+    while (!open.empty() && open.back().next_child == open.back().node.degree()) {
+      const Open& top = open.back();
+      const auto first = results.begin() + static_cast<std::ptrdiff_t>(top.first_result);
+      R result = combine_children<R>(
+          combine, std::span<R>(results.data() + top.first_result, top.node.degree()), top.node);
+      results.erase(first, results.end());
+      results.push_back(std::move(result));
+      open.pop_back();
+    }
+    if (open.empty()) return std::move(results.front());
+    node = open.back().node.child(open.back().next_child++);
+  }
+}
+
 }  // namespace detail
 
 template <class T, class N, std::invocable<const T&> Solve, class Combine,
@@ -61,6 +98,9 @@ requires std::movable<R> && CombinesChildren<Combine, R, N> R traverse(const Tre
                                                                        Combine&& combine,
                                                                        const E& executor = {}) {
   using Node = typename Tree<T, N>::Node;
+  if constexpr (std::same_as<E, skeleton::SequentialExecutor>) {
+    return detail::traverse_sequentially<R>(tree, solve, combine);
+  }
   return skeleton::divacon(
       tree.root(), [](const Node& node) { return node.is_terminal(); },
       [](const Node& node) { return node.children(); },

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The experiments of the paper on the generic operators, one line of JSON for each measurement:
+//   gel_experiments membership N     reading a tree of N half-planes and classifying a point
+//   gel_experiments area             the area of the plate, on the fly and by a tree, to depth 13
+//   gel_experiments points           a million points: by the tree, by a decomposition, by CGAL
+// Every answer is checked before it is timed; bench/gel_experiments makes tables of the lines.
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bench/gel/planar_model.hpp"
+#include "exactcsg/csg/traverse.hpp"
+#include "exactcsg/gdt/create.hpp"
+#include "exactcsg/gdt/traverse.hpp"
+#include "exactcsg/skeleton/divacon.hpp"
+
+namespace exactcsg::bench {
+namespace {
+
+[[noreturn]] void wrong(const std::string& what) {
+  fmt::print(stderr, "wrong answer: {}\n", what);
+  std::exit(1);
+}
+
+// The least of some runs, in seconds.
+template <class Work>
+double seconds_of(Work work, int runs = 5) {
+  double best = 1e300;
+  for (int i = 0; i < runs; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    best = std::min(best, elapsed.count());
+  }
+  return best;
+}
+
+long peak_kilobytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+PointClass membership(const Planar& solid, const PlanarPoint& point) {
+  return csg::traverse(
+      solid, [&](const PlanarHalfSpace& h) { return classify(h, point); },
+      [](PointClass a, csg::BooleanOperator op, PointClass b) { return combine(a, op, b); },
+      csg::FullEmptyResult{PointClass::In, PointClass::Out});
+}
+
+void membership_experiment(std::size_t count) {
+  std::string text = text_of(squares(count));
+  Planar solid;
+  const double input = seconds_of([&] { solid = tree_of(text); }, count > 1'000'000 ? 1 : 5);
+  if (solid.primitive_count() != count) wrong("number of half-planes");
+  // The squares are at multiples of 1/32 and have the side 1/64.
+  if (membership(solid, {1.0 / 128, 1.0 / 128}) != PointClass::In) wrong("inside of a square");
+  if (membership(solid, {3.0 / 128, 1.0 / 128}) != PointClass::Out) wrong("between squares");
+  if (membership(solid, {1.0 / 64, 1.0 / 128}) != PointClass::On) wrong("side of a square");
+  const double computation = seconds_of([&] {
+    if (membership(solid, {3.0 / 128, 1.0 / 128}) != PointClass::Out) wrong("classification");
+  });
+  fmt::print(
+      "{{\"half_planes\": {}, \"bytes\": {}, \"input\": {}, \"computation\": {}, "
+      "\"peak_kilobytes\": {}}}\n",
+      count, text.size(), input, computation, peak_kilobytes());
+}
+
+double area_of_leaf(const Local& local) {
+  if (local.solid.is_empty()) return 0;
+  const PlanarPoint middle{(local.cell.lower[0] + local.cell.upper[0]) / 2,
+                           (local.cell.lower[1] + local.cell.upper[1]) / 2};
+  return membership(local.solid, middle) == PointClass::Out ? 0 : size_of(local.cell);
+}
+
+std::array<Local, 4> quadrants(const Local& local) {
+  return {localised(local, 0), localised(local, 1), localised(local, 2), localised(local, 3)};
+}
+
+double sum(std::span<double> parts) { return parts[0] + parts[1] + parts[2] + parts[3]; }
+
+void area_experiment() {
+  const Local root{{{0, 0}, {1, 1}}, plate()};
+  for (int depth = 2; depth <= 13; ++depth) {
+    const auto on_the_fly = [&](const auto& executor) {
+      return skeleton::divacon(
+          root, [&](const Local& local) { return local.depth == depth || is_decided(local); },
+          quadrants, area_of_leaf, sum, executor);
+    };
+    const skeleton::SequentialExecutor one;
+    const skeleton::ParallelExecutor<> two(2, 5);
+    const double area = on_the_fly(one);
+    if (on_the_fly(two) != area) wrong("area in parallel");
+    // The circles, of length 25 (2 pi / 16 + 2 pi / 32) < 15, and the corners' sides cross fewer
+    // than 64 cells a unit of length and depth step.
+    if (std::abs(area - area_of_plate()) > 64 / std::exp2(depth)) wrong("area");
+    using AreaTree = gdt::Tree<double>;
+    std::optional<AreaTree> tree;
+    const int runs = depth < 11 ? 5 : 3;
+    const double creation = seconds_of(
+        [&] {
+          tree = gdt::create(root, is_decided, quadrants, area_of_leaf,
+                             static_cast<std::size_t>(depth));
+        },
+        runs);
+    const auto traversal = [&] {
+      if (gdt::traverse(
+              *tree, [](double value) { return value; }, sum) != area) {
+        wrong("area by a tree");
+      }
+    };
+    fmt::print(
+        "{{\"depth\": {}, \"area\": {:.9f}, \"error\": {:.3e}, \"on_the_fly\": {}, "
+        "\"two_threads\": {}, \"creation\": {}, \"traversal\": {}, \"nodes\": {}}}\n",
+        depth, area, std::abs(area - area_of_plate()), seconds_of([&] { on_the_fly(one); }, runs),
+        seconds_of([&] { on_the_fly(two); }, runs), creation, seconds_of(traversal, runs),
+        tree->node_count());
+  }
+}
+
+// ---- a million points against 100 000 half-spaces
+// ------------------------------------------------
+
+using Vector = std::array<double, 3>;
+using SpaceCell = gdt::Cell<double, 3>;
+
+// s . p <= d for signs s: a face of an octahedron. Coordinates are multiples of 2^-20 below 64, so
+// that the sums are exact.
+struct OctahedronFace {
+  Vector signs;
+  double offset;
+};
+using Space = csg::Tree<OctahedronFace, csg::BooleanOperator>;
+
+PointClass classify(const OctahedronFace& h, const Vector& p) {
+  const double value = h.signs[0] * p[0] + h.signs[1] * p[1] + h.signs[2] * p[2] - h.offset;
+  return value < 0 ? PointClass::In : value > 0 ? PointClass::Out : PointClass::On;
+}
+csg::Membership classify(const OctahedronFace& h, const SpaceCell& cell) {
+  Vector nearest{}, farthest{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    nearest[i] = h.signs[i] > 0 ? cell.lower[i] : cell.upper[i];
+    farthest[i] = h.signs[i] > 0 ? cell.upper[i] : cell.lower[i];
+  }
+  if (classify(h, nearest) != PointClass::In) return csg::Membership::Out;
+  return classify(h, farthest) == PointClass::Out ? csg::Membership::Unknown : csg::Membership::In;
+}
+
+constexpr int per_axis = 23;         // 12 167 octahedra of 8 faces: 97 336 half-spaces
+constexpr double radius = 7.0 / 16;  // of octahedra whose centres are 1 apart
+
+Space octahedra() {
+  std::vector<Space> parts;
+  for (int i = 0; i < per_axis * per_axis * per_axis; ++i) {
+    const Vector centre{static_cast<double>(i % per_axis),
+                        static_cast<double>(i / per_axis % per_axis),
+                        static_cast<double>(i / per_axis / per_axis)};
+    std::vector<Space> faces;
+    for (unsigned pattern = 0; pattern < 8; ++pattern) {
+      OctahedronFace face{{}, radius};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        face.signs[axis] = (pattern >> axis & 1U) != 0 ? 1 : -1;
+        face.offset += face.signs[axis] * centre[axis];
+      }
+      faces.push_back(Space::primitive(face));
+    }
+    parts.push_back(Space::compose(csg::BooleanOperator::Intersection, std::move(faces)));
+  }
+  return Space::compose(csg::BooleanOperator::Union, std::move(parts));
+}
+
+PointClass membership(const Space& solid, const Vector& point) {
+  return csg::traverse(
+      solid, [&](const OctahedronFace& h) { return classify(h, point); },
+      [](PointClass a, csg::BooleanOperator op, PointClass b) { return combine(a, op, b); },
+      csg::FullEmptyResult{PointClass::In, PointClass::Out},
+      [](PointClass a, csg::BooleanOperator op) {
+        return a == (op == csg::BooleanOperator::Union ? PointClass::In : PointClass::Out);
+      });
+}
+
+// What is known without the solid: at most one octahedron is near.
+PointClass expected(const Vector& p) {
+  double distance = 0;
+  for (const double x : p) {
+    const double nearest = std::clamp(std::round(x), 0.0, per_axis - 1.0);
+    distance += std::abs(x - nearest);
+  }
+  return distance < radius ? PointClass::In : distance > radius ? PointClass::Out : PointClass::On;
+}
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+Mesh mesh_of_octahedra() {
+  Mesh mesh;
+  for (int i = 0; i < per_axis * per_axis * per_axis; ++i) {
+    const Kernel::Point_3 centre(i % per_axis, i / per_axis % per_axis, i / per_axis / per_axis);
+    std::array<std::array<Mesh::Vertex_index, 2>, 3> tips;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int side = 0; side < 2; ++side) {
+        const double step = side == 0 ? -radius : radius;
+        tips[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)] =
+            mesh.add_vertex(centre + Kernel::Vector_3(axis == 0 ? step : 0, axis == 1 ? step : 0,
+                                                      axis == 2 ? step : 0));
+      }
+    }
+    for (std::size_t x = 0; x < 2; ++x) {
+      for (std::size_t y = 0; y < 2; ++y) {
+        for (std::size_t z = 0; z < 2; ++z) {
+          const bool positive = (x + y + z) % 2 != 0;
+          mesh.add_face(tips[0][x], tips[positive ? 1 : 2][positive ? y : z],
+                        tips[positive ? 2 : 1][positive ? z : y]);
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+struct SpaceTask {
+  SpaceCell cell;
+  Space solid;
+};
+
+auto decomposition_of(const Space& solid) {
+  constexpr std::uint64_t few = 8;
+  const auto centre_of = [](const SpaceTask& task) {
+    Vector centre{};
+    for (std::size_t i = 0; i < 3; ++i) centre[i] = (task.cell.lower[i] + task.cell.upper[i]) / 2;
+    return centre;
+  };
+  return gdt::create(
+      SpaceTask{{{-1, -1, -1}, {31, 31, 31}}, solid},
+      [](const SpaceTask& task) { return task.solid.primitive_count() <= few; },
+      [&](const SpaceTask& task) {
+        std::vector<SpaceTask> octants;
+        for (std::size_t i = 0; i < 8; ++i) {
+          const SpaceCell cell = gdt::Orthants()(task.cell, centre_of(task), i);
+          octants.push_back({cell, csg::prune(task.solid, [&](const OctahedronFace& h) {
+                               return classify(h, cell);
+                             })});
+        }
+        return octants;
+      },
+      [](const SpaceTask& task) { return task.solid; }, 9, skeleton::ParallelExecutor<>(0, 3),
+      centre_of);
+}
+
+void points_experiment() {
+  std::mt19937_64 random(7);
+  std::vector<Vector> points(1'000'000);
+  for (Vector& p : points) {
+    for (double& x : p) x = static_cast<double>(random() % (24U << 20U)) / (1U << 20U) - 1;
+  }
+  const Space solid = octahedra();
+  for (std::size_t i = 0; i < 100; ++i) {
+    if (membership(solid, points[i]) != expected(points[i])) wrong("a point by the tree");
+  }
+  constexpr std::size_t sample = 200;
+  const double by_tree = seconds_of([&] {
+                           for (std::size_t i = 0; i < sample; ++i) membership(solid, points[i]);
+                         }) /
+                         sample;
+  std::optional<decltype(decomposition_of(solid))> tree;
+  const double creation = seconds_of([&] { tree = decomposition_of(solid); }, 1);
+  const auto by_decomposition = [&](const Vector& p) {
+    return membership(gdt::descend(*tree,
+                                   [&](const Vector& centre) {
+                                     return (p[0] < centre[0] ? 0U : 1U) +
+                                            (p[1] < centre[1] ? 0U : 2U) +
+                                            (p[2] < centre[2] ? 0U : 4U);
+                                   }),
+                      p);
+  };
+  for (const Vector& p : points) {
+    if (by_decomposition(p) != expected(p)) wrong("a point by the decomposition");
+  }
+  std::vector<PointClass> classes(points.size());
+  const auto classify_half = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) classes[i] = by_decomposition(points[i]);
+  };
+  const double one = seconds_of([&] { classify_half(0, points.size()); });
+  const double two = seconds_of([&] {
+    std::jthread other([&] { classify_half(0, points.size() / 2); });
+    classify_half(points.size() / 2, points.size());
+  });
+  const Mesh mesh = mesh_of_octahedra();
+  const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(mesh);
+  const auto by_mesh = [&](const Vector& p) {
+    switch (side(Kernel::Point_3(p[0], p[1], p[2]))) {
+      case CGAL::ON_BOUNDED_SIDE:
+        return PointClass::In;
+      case CGAL::ON_BOUNDARY:
+        return PointClass::On;
+      default:
+        return PointClass::Out;
+    }
+  };
+  for (std::size_t i = 0; i < 100'000; ++i) {
+    if (by_mesh(points[i]) != expected(points[i])) wrong("a point by CGAL");
+  }
+  constexpr std::size_t mesh_sample = 100'000;
+  const double by_cgal = seconds_of([&] {
+                           for (std::size_t i = 0; i < mesh_sample; ++i) by_mesh(points[i]);
+                         }) /
+                         mesh_sample;
+  const auto count = static_cast<double>(points.size());
+  fmt::print(
+      "{{\"half_spaces\": {}, \"nodes\": {}, \"creation\": {}, \"tree\": {}, "
+      "\"decomposition\": {}, \"two_threads\": {}, \"cgal\": {}}}\n",
+      solid.primitive_count(), tree->node_count(), creation, by_tree, one / count, two / count,
+      by_cgal);
+}
+
+}  // namespace
+}  // namespace exactcsg::bench
+
+int main(int argc, char** argv) {
+  using namespace exactcsg::bench;
+  const std::string task = argc > 1 ? argv[1] : "";
+  if (task == "membership" && argc > 2) {
+    membership_experiment(std::stoul(argv[2]));
+  } else if (task == "area") {
+    area_experiment();
+  } else if (task == "points") {
+    points_experiment();
+  } else {
+    fmt::print(stderr, "gel_experiments membership N | area | points\n");
+    return 2;
+  }
+}

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the generic operators cost: three computations, each by the library and written out by hand
+// for its types, with the same data structures and the same explicit stacks (a tree may be a
+// million deep). `overhead` checks that the answers agree; bench/gel_experiments counts the
+// instructions of the functions of this file.
+//
+// By hand means: no function is a parameter, no type either, and nothing is there for cases that do
+// not occur. What both use is the tree, and csg::prune for the areas.
+
+#include <cstring>
+#include <iostream>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "bench/gel/planar_model.hpp"
+#include "exactcsg/csg/traverse.hpp"
+#include "exactcsg/gdt/create.hpp"
+#include "exactcsg/gdt/traverse.hpp"
+#include "exactcsg/skeleton/divacon.hpp"
+
+namespace exactcsg::bench {
+
+constexpr int deepest = 9;
+const PlanarCell unit_square{{0, 0}, {1, 1}};
+
+double area_of_leaf(const Local& local) {
+  if (local.solid.is_empty()) return 0;
+  if (local.solid.is_full()) return size_of(local.cell);
+  const PlanarPoint middle{(local.cell.lower[0] + local.cell.upper[0]) / 2,
+                           (local.cell.lower[1] + local.cell.upper[1]) / 2};
+  const PointClass at_middle = csg::traverse(
+      local.solid, [&](const PlanarHalfSpace& h) { return classify(h, middle); },
+      [](PointClass a, csg::BooleanOperator op, PointClass b) { return combine(a, op, b); },
+      csg::FullEmptyResult{PointClass::In, PointClass::Out});
+  return at_middle == PointClass::Out ? 0 : size_of(local.cell);
+}
+
+[[gnu::noinline]] PointClass generic_membership(const Planar& solid, const PlanarPoint& point) {
+  return csg::traverse(
+      solid, [&](const PlanarHalfSpace& h) { return classify(h, point); },
+      [](PointClass a, csg::BooleanOperator op, PointClass b) { return combine(a, op, b); },
+      csg::FullEmptyResult{PointClass::In, PointClass::Out});
+}
+
+[[gnu::noinline]] PointClass handwritten_membership(const Planar& solid, const PlanarPoint& point) {
+  struct Open {
+    Planar::Cursor child;
+    Planar::Cursor end;
+    csg::BooleanOperator operation;
+    bool has_partial;
+    PointClass partial;
+  };
+  std::vector<Open> open;
+  Planar::Cursor node = solid.root();
+  while (true) {
+    while (node.kind() == csg::NodeKind::Compose) {
+      open.push_back({node.first_child(), node.children_end(), node.operation(), false, {}});
+      node = node.first_child();
+    }
+    PointClass value = PointClass::Out;
+    if (node.kind() == csg::NodeKind::Primitive) {
+      value = classify(node.primitive(), point);
+    } else if (node.kind() == csg::NodeKind::Full) {
+      value = PointClass::In;
+    }
+    while (true) {
+      if (open.empty()) return value;
+      Open& top = open.back();
+      if (top.has_partial) value = combine(top.partial, top.operation, value);
+      top.child = top.child.next_sibling();
+      if (!(top.child == top.end)) {
+        top.has_partial = true;
+        top.partial = value;
+        node = top.child;
+        break;
+      }
+      open.pop_back();
+    }
+  }
+}
+
+[[gnu::noinline]] double generic_area(const Planar& solid) {
+  return skeleton::divacon(
+      Local{unit_square, solid},
+      [](const Local& local) { return local.depth == deepest || is_decided(local); },
+      [](const Local& local) {
+        std::array<Local, 4> quadrants;
+        for (std::size_t i = 0; i < 4; ++i) quadrants[i] = localised(local, i);
+        return quadrants;
+      },
+      [](const Local& local) { return area_of_leaf(local); },
+      [](std::span<double> parts) { return parts[0] + parts[1] + parts[2] + parts[3]; });
+}
+
+// A sum needs no stack of results: they are added up as they come.
+[[gnu::noinline]] double handwritten_area(const Planar& solid) {
+  double sum = 0;
+  std::vector<Local> open{{unit_square, solid}};
+  while (!open.empty()) {
+    const Local local = std::move(open.back());
+    open.pop_back();
+    if (local.depth == deepest || is_decided(local)) {
+      sum += area_of_leaf(local);
+      continue;
+    }
+    for (std::size_t i = 0; i < 4; ++i) open.push_back(localised(local, i));
+  }
+  return sum;
+}
+
+using AreaTree = gdt::Tree<double>;
+
+AreaTree area_tree(const Planar& solid) {
+  return gdt::create(
+      Local{unit_square, solid}, is_decided,
+      [](const Local& local) {
+        std::array<Local, 4> quadrants;
+        for (std::size_t i = 0; i < 4; ++i) quadrants[i] = localised(local, i);
+        return quadrants;
+      },
+      [](const Local& local) { return area_of_leaf(local); }, deepest);
+}
+
+[[gnu::noinline]] double generic_sum(const AreaTree& tree) {
+  return gdt::traverse(
+      tree, [](double area) { return area; },
+      [](std::span<double> parts) { return parts[0] + parts[1] + parts[2] + parts[3]; });
+}
+
+// Keeps the results of each node's children apart, as a combine that is not a sum would need it.
+[[gnu::noinline]] double handwritten_sum(const AreaTree& tree) {
+  struct Open {
+    AreaTree::Node node;
+    std::size_t next_child;
+    std::size_t first_result;
+  };
+  std::vector<Open> open;
+  std::vector<double> results;
+  AreaTree::Node node = tree.root();
+  while (true) {
+    while (!node.is_terminal()) {
+      open.push_back({node, 1, results.size()});
+      node = node.child(0);
+    }
+    results.push_back(node.terminal());
+    while (!open.empty() && open.back().next_child == open.back().node.degree()) {
+      const double* const r = results.data() + open.back().first_result;
+      const double sum = r[0] + r[1] + r[2] + r[3];
+      results.resize(open.back().first_result);
+      results.push_back(sum);
+      open.pop_back();
+    }
+    if (open.empty()) return results.front();
+    node = open.back().node.child(open.back().next_child++);
+  }
+}
+
+}  // namespace exactcsg::bench
+
+int main() {
+  using namespace exactcsg::bench;
+  const Planar many = squares(20'000);
+  const PlanarPoint point{0.3, 0.7};
+  const Planar solid = plate();
+  const AreaTree tree = area_tree(solid);
+  const bool equal = generic_membership(many, point) == handwritten_membership(many, point) &&
+                     generic_area(solid) == handwritten_area(solid) &&
+                     generic_sum(tree) == handwritten_sum(tree);
+  std::cout << (equal ? "equal\n" : "different\n");
+  return equal ? 0 : 1;
+}
