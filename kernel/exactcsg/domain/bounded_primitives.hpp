@@ -7,6 +7,8 @@
 //
 // Source: Davy and Dew, section 4 (GEL's module of bounded primitives).
 
+#include <vector>
+
 #include "exactcsg/csg/tree.hpp"
 #include "exactcsg/domain/half_spaces.hpp"
 

@@ -22,6 +22,9 @@
 //
 // Source: Davy and Dew, sections 3.2 and 3.4 (the domain of half-spaces); exactness is ours.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <memory>
