@@ -296,11 +296,11 @@ TEST(Divacon, Nests) {
 struct Archetype {
   template <DivideAndConquer A>
   typename A::Result run(typename A::Problem problem, A& algorithm) const {
-    if (algorithm.is_leaf(problem)) return algorithm.solve(std::move(problem));
+    std::vector<typename A::Problem> parts;
+    const auto receive = [&](typename A::Problem&& part) { parts.push_back(std::move(part)); };
+    if (auto solved = expand(algorithm, problem, receive)) return std::move(*solved);
     detail::Array<typename A::Result> results;
-    algorithm.divide(problem, [&](typename A::Problem&& part) {
-      results.push_back(run(std::move(part), algorithm));
-    });
+    for (auto& part : parts) results.push_back(run(std::move(part), algorithm));
     return algorithm.combine(std::span(results.data(), results.size()), std::move(problem));
   }
 };

@@ -4,12 +4,16 @@
 // Where a divide-and-conquer computation runs: in this thread, or on the threads of oneTBB. [Exact]
 //
 // An executor runs a DivideAndConquer: a problem type, a result type, and
-//   is_leaf(const Problem&) -> bool
-//   divide(Problem&, receive)       gives every subproblem, in order, to receive(Problem&&)
-//   solve(Problem&&) -> Result
+//   expand(Problem&, receive) -> optional<Result>   the result of a leaf; or none, and then every
+//                                                   subproblem went, in order, to
+//                                                   receive(Problem&&)
+// or, in place of expand, is_leaf(const Problem&) -> bool, solve(Problem&&) -> Result and
+// divide(Problem&, receive); further
 //   combine(span<Result>, Problem&&) -> Result
-// divacon.hpp makes one from the five arguments of the source. An executor for other machines (MPI,
-// say) models the same concept.
+// and, where a result may make those to its right superfluous (StopsEarly),
+//   enough(const Result&, const Problem&) -> bool   of a subproblem's result, and its parent
+// divacon.hpp makes one from the arguments of the source. An executor for other machines (MPI, say)
+// models the same concept; simulated_executor.hpp and progress_executor.hpp have two more.
 //
 // LAW executor.1  the result does not depend on the executor, the number of threads or the schedule
 //                 if the callbacks compute the same for the same arguments: results are combined in
@@ -17,15 +21,22 @@
 // LAW executor.2  an exception of a callback comes out of run; of several, one. Work that has not
 //                 begun is then dropped, and nothing of the computation runs on after run returned.
 // LAW executor.3  no stack is used in proportion to the depth of the division.
+// LAW executor.4  combine of a StopsEarly receives the results up to and with the first, in the
+//                 order of the subproblems, that is enough; on every executor. In one thread the
+//                 subproblems after it are not begun; with several, what has begun of them is
+//                 dropped, and so is what they throw: an exception comes out if, and only if, it
+//                 does in one thread.
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
+#include <atomic>
 #include <boost/container/vector.hpp>
 #include <concepts>
 #include <cstddef>
+#include <exception>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -40,13 +51,42 @@
 namespace exactcsg::skeleton {
 
 template <class A>
-concept DivideAndConquer = std::movable<typename A::Problem> && std::movable<typename A::Result> &&
-    requires(A& algorithm, typename A::Problem& problem, std::span<typename A::Result> results,
-             void (*receive)(typename A::Problem&&)) {
+concept ExpandsAtOnce = requires(A& algorithm, typename A::Problem& problem,
+                                 void (*receive)(typename A::Problem&&)) {
+  { algorithm.expand(problem, receive) } -> std::same_as<std::optional<typename A::Result>>;
+};
+template <class A>
+concept ExpandsInSteps = requires(A& algorithm, typename A::Problem& problem,
+                                  void (*receive)(typename A::Problem&&)) {
   { algorithm.is_leaf(std::as_const(problem)) } -> std::convertible_to<bool>;
   algorithm.divide(problem, receive);
   { algorithm.solve(std::move(problem)) } -> std::same_as<typename A::Result>;
+};
+
+template <class A>
+concept DivideAndConquer = std::movable<typename A::Problem> && std::movable<typename A::Result> &&
+    (ExpandsAtOnce<A> || ExpandsInSteps<A>)&&requires(A& algorithm, typename A::Problem& problem,
+                                                      std::span<typename A::Result> results) {
   { algorithm.combine(results, std::move(problem)) } -> std::same_as<typename A::Result>;
+};
+
+// What an executor calls, whichever form the algorithm has.
+template <DivideAndConquer A, class Receive>
+std::optional<typename A::Result> expand(A& algorithm, typename A::Problem& problem,
+                                         Receive&& receive) {
+  if constexpr (ExpandsAtOnce<A>) {
+    return algorithm.expand(problem, receive);
+  } else {
+    if (algorithm.is_leaf(std::as_const(problem))) return algorithm.solve(std::move(problem));
+    algorithm.divide(problem, receive);
+    return std::nullopt;
+  }
+}
+
+template <class A>
+concept StopsEarly = DivideAndConquer<A> &&
+    requires(A& algorithm, const typename A::Result& result, const typename A::Problem& problem) {
+  { algorithm.enough(result, problem) } -> std::convertible_to<bool>;
 };
 
 namespace detail {
@@ -61,54 +101,121 @@ struct NeverInterrupted {
 };
 
 // An explicit stack of what is still to do, and one of the results not yet combined.
-template <DivideAndConquer A, class Interrupt = NeverInterrupted>
-typename A::Result run_sequentially(typename A::Problem root, A& algorithm,
-                                    Interrupt interrupt = {}) {
+template <DivideAndConquer A, class Interrupt>
+class SequentialRun {
+ public:
   using Problem = typename A::Problem;
+  using Result = typename A::Result;
+
+  SequentialRun(A& algorithm, Interrupt& interrupt)
+      : algorithm_(algorithm), interrupt_(interrupt) {}
+
+  Result operator()(Problem root) {
+    pending_.emplace_back(std::in_place_index<0>, std::move(root));
+    while (!pending_.empty()) {
+      interrupt_();
+      if (pending_.back().index() == 1) {
+        combine_last();
+      } else {
+        expand_last();
+      }
+    }
+    return std::move(results_.back());
+  }
+
+ private:
   struct Join {
     Problem problem;
     std::size_t first_result;
   };
-  std::vector<std::variant<Problem, Join>> pending;
-  Array<typename A::Result> results;
-  std::vector<Problem> parts;
-  pending.emplace_back(std::in_place_index<0>, std::move(root));
-  while (!pending.empty()) {
-    interrupt();
-    if (auto* join = std::get_if<1>(&pending.back())) {
-      const auto first = results.begin() + static_cast<std::ptrdiff_t>(join->first_result);
-      auto result = algorithm.combine(
-          std::span(results.data() + join->first_result, results.size() - join->first_result),
-          std::move(join->problem));
-      results.erase(first, results.end());
-      results.push_back(std::move(result));
-      pending.pop_back();
-      continue;
+
+  void combine_last() {
+    Join& join = *std::get_if<1>(&pending_.back());
+    const auto first = results_.begin() + static_cast<std::ptrdiff_t>(join.first_result);
+    auto result = algorithm_.combine(
+        std::span(results_.data() + join.first_result, results_.size() - join.first_result),
+        std::move(join.problem));
+    results_.erase(first, results_.end());
+    pending_.pop_back();
+    if constexpr (StopsEarly<A>) joins_.pop_back();
+    receive_result(std::move(result));
+  }
+
+  void expand_last() {
+    Problem problem = std::move(*std::get_if<0>(&pending_.back()));
+    pending_.pop_back();
+    parts_.clear();
+    if (auto solved = expand(algorithm_, problem,
+                             [this](Problem&& part) { parts_.push_back(std::move(part)); })) {
+      return receive_result(std::move(*solved));
     }
-    Problem problem = std::move(*std::get_if<0>(&pending.back()));
-    pending.pop_back();
-    if (algorithm.is_leaf(std::as_const(problem))) {
-      results.push_back(algorithm.solve(std::move(problem)));
-      continue;
-    }
-    const std::size_t join = pending.size();
-    pending.emplace_back(std::in_place_index<1>, Join{std::move(problem), results.size()});
-    parts.clear();
-    algorithm.divide(std::get_if<1>(&pending[join])->problem,
-                     [&](Problem&& part) { parts.push_back(std::move(part)); });
-    for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
-      pending.emplace_back(std::in_place_index<0>, std::move(*part));
+    if constexpr (StopsEarly<A>) joins_.push_back(pending_.size());
+    pending_.emplace_back(std::in_place_index<1>, Join{std::move(problem), results_.size()});
+    for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) {
+      pending_.emplace_back(std::in_place_index<0>, std::move(*part));
     }
   }
-  return std::move(results.back());
+
+  void receive_result(Result&& result) {
+    if constexpr (StopsEarly<A>) {
+      if (!joins_.empty()) {
+        const auto join = pending_.begin() + static_cast<std::ptrdiff_t>(joins_.back());
+        if (algorithm_.enough(std::as_const(result),
+                              std::as_const(std::get_if<1>(&*join)->problem))) {
+          pending_.erase(join + 1, pending_.end());
+        }
+      }
+    }
+    results_.push_back(std::move(result));
+  }
+
+  A& algorithm_;
+  Interrupt& interrupt_;
+  std::vector<std::variant<Problem, Join>> pending_;
+  std::vector<std::size_t> joins_;  // where they are in pending_, if the algorithm stops early
+  Array<Result> results_;
+  std::vector<Problem> parts_;
+};
+
+template <DivideAndConquer A, class Interrupt = NeverInterrupted>
+typename A::Result run_sequentially(typename A::Problem root, A& algorithm,
+                                    Interrupt interrupt = {}) {
+  return SequentialRun<A, Interrupt>(algorithm, interrupt)(std::move(root));
 }
 
-// Thrown in a task whose group another task has failed: oneTBB drops it for the other's exception.
+// Thrown in a task whose group another task has failed (oneTBB drops it for the other's exception),
+// or whose result is not wanted any more.
 struct Interrupted {};
 
-inline void throw_if_cancelled() {
-  if (tbb::is_current_task_group_canceling()) throw Interrupted{};
-}
+// Which of several siblings, in their order, is the last that counts.
+class LastThatCounts {
+ public:
+  explicit LastThatCounts(std::size_t siblings) : index_(siblings) {}
+  std::size_t index() const noexcept { return index_.load(std::memory_order_relaxed); }
+  void lower_to(std::size_t index) noexcept {
+    std::size_t before = this->index();
+    while (index < before &&
+           !index_.compare_exchange_weak(before, index, std::memory_order_relaxed)) {
+    }
+  }
+
+ private:
+  std::atomic<std::size_t> index_;
+};
+
+// Where a task stands among its siblings, and its ancestors among theirs.
+struct Place {
+  const LastThatCounts* siblings = nullptr;
+  std::size_t index = 0;
+  const Place* above = nullptr;
+
+  bool is_superfluous() const noexcept {
+    for (const Place* place = this; place != nullptr; place = place->above) {
+      if (place->siblings != nullptr && place->index > place->siblings->index()) return true;
+    }
+    return false;
+  }
+};
 
 template <DivideAndConquer A, class WorthATask>
 class ParallelRun {
@@ -119,35 +226,80 @@ class ParallelRun {
   ParallelRun(A& algorithm, const WorthATask& worth_a_task)
       : algorithm_(algorithm), worth_a_task_(worth_a_task) {}
 
-  Result operator()(Problem problem, unsigned levels) const {
-    throw_if_cancelled();
+  Result operator()(Problem problem, unsigned levels, const Place& place = {}) const {
+    const auto interrupt = [&] {
+      if (tbb::is_current_task_group_canceling()) throw Interrupted{};
+      if constexpr (StopsEarly<A>) {
+        if (place.is_superfluous()) throw Interrupted{};
+      }
+    };
+    interrupt();
     if (levels == 0 || !worth_a_task_(std::as_const(problem))) {
-      return run_sequentially(std::move(problem), algorithm_, throw_if_cancelled);
+      return run_sequentially(std::move(problem), algorithm_, interrupt);
     }
-    if (algorithm_.is_leaf(std::as_const(problem))) return algorithm_.solve(std::move(problem));
     std::vector<Problem> parts;
-    algorithm_.divide(problem, [&](Problem&& part) { parts.push_back(std::move(part)); });
-    Array<Result> results = all(parts, levels - 1);
+    if (auto solved = expand(algorithm_, problem,
+                             [&](Problem&& part) { parts.push_back(std::move(part)); })) {
+      return std::move(*solved);
+    }
+    Array<Result> results = all(parts, problem, levels - 1, place);
     return algorithm_.combine(std::span(results.data(), results.size()), std::move(problem));
   }
 
  private:
-  Array<Result> all(std::vector<Problem>& parts, unsigned levels) const {
-    std::vector<std::optional<Result>> slots(parts.size());
+  struct Slot {
+    std::optional<Result> result;
+    std::exception_ptr failure;
+  };
+
+  Array<Result> all(std::vector<Problem>& parts, [[maybe_unused]] const Problem& problem,
+                    unsigned levels, const Place& place) const {
+    std::vector<Slot> slots(parts.size());
+    LastThatCounts last(parts.size());
+    const auto solve = [&](std::size_t i) {
+      if constexpr (StopsEarly<A>) {
+        solve_unless_superfluous(parts[i], problem, levels, Place{&last, i, &place}, slots[i],
+                                 last);
+      } else {
+        slots[i].result.emplace((*this)(std::move(parts[i]), levels));
+      }
+    };
     const TakeOverAtEnd before_unwinding(&slots);
     tbb::task_group group;
     for (std::size_t i = 1; i < parts.size(); ++i) {
-      const auto work = [&, i] { slots[i].emplace((*this)(std::move(parts[i]), levels)); };
+      const auto work = [&solve, i] { solve(i); };
       group.run(HandedOver(work, &slots));
     }
     const auto first = [&] {
-      if (!parts.empty()) slots[0].emplace((*this)(std::move(parts[0]), levels));
+      if (!parts.empty()) solve(0);
     };
     if (group.run_and_wait(first) == tbb::canceled) throw Interrupted{};
     take_over(&slots);
+    return results_of(slots, last.index());
+  }
+
+  // Exceptions wait in the slots: whether they come out is known when all siblings to the left are
+  // done.
+  void solve_unless_superfluous(Problem& part, const Problem& problem, unsigned levels,
+                                const Place& place, Slot& slot, LastThatCounts& last) const {
+    try {
+      slot.result.emplace((*this)(std::move(part), levels, place));
+      if (algorithm_.enough(std::as_const(*slot.result), problem)) last.lower_to(place.index);
+    } catch (const Interrupted&) {
+    } catch (...) {
+      slot.failure = std::current_exception();
+      last.lower_to(place.index);
+    }
+  }
+
+  static Array<Result> results_of(std::vector<Slot>& slots, std::size_t last) {
     Array<Result> results;
     results.reserve(slots.size());
-    for (std::optional<Result>& slot : slots) results.push_back(std::move(*slot));
+    for (std::size_t i = 0; i < slots.size() && i <= last; ++i) {
+      if (slots[i].failure) std::rethrow_exception(slots[i].failure);
+      if (!slots[i].result) throw Interrupted{};
+      results.push_back(std::move(*slots[i].result));
+    }
     return results;
   }
 
