@@ -2,8 +2,13 @@
 #include "exactcsg/csg/tree.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
+#include <algorithm>
+#include <array>
+#include <functional>
 #include <memory>
+#include <random>
 #include <string>
 #include <thread>
 #include <utility>
@@ -175,6 +180,88 @@ TEST(Tree, MapKeepsSharing) {
   TestTree second = tree;
   EXPECT_EQ(first, second);
 }
+
+// LAW map.2, and that the result is what plain recursion makes.
+std::string spelled(const Tree<std::string, std::string>& tree) {
+  if (tree.is_primitive()) return tree.primitive();
+  if (!tree.is_compose()) return tree.is_full() ? "full" : "empty";
+  std::string text = tree.operation() + "(";
+  for (const auto& child : tree.children()) text += spelled(child) + ",";
+  return text + ")";
+}
+TEST(Tree, MapChangesPrimitivesAndOperators) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 100; ++round) {
+    const TestTree tree = test::random_tree(random, 5, 6);
+    const auto text = [](int i) { return std::to_string(i); };
+    const auto name = [](BooleanOperator op) { return "o" + std::to_string(static_cast<int>(op)); };
+    const auto longer = [](const std::string& s) { return s + "!"; };
+    const auto twice = map(map(tree, text, name), longer, longer);
+    EXPECT_EQ(twice, map(
+                         tree, [&](int i) { return longer(text(i)); },
+                         [&](BooleanOperator op) { return longer(name(op)); }));
+    EXPECT_EQ(map(tree, std::identity{}), tree);
+    const std::string spelling = spelled(twice);
+    EXPECT_EQ(std::count(spelling.begin(), spelling.end(), '!'),
+              static_cast<std::ptrdiff_t>(tree.primitive_count()) +
+                  std::count(spelling.begin(), spelling.end(), '('));
+  }
+}
+
+// Two equal towers of 100 doublings, made apart, stand for 2^100 pairs of leaves.
+TEST(Tree, EqualityOfSharedNodesIsDecidedOnce) {
+  TestTree first = leaf(1);
+  TestTree second = leaf(1);
+  TestTree third = leaf(2);
+  for (int i = 0; i < 100; ++i) {
+    first = unite(first, first);
+    second = unite(second, second);
+    third = unite(third, third);
+  }
+  EXPECT_TRUE(first == second);
+  EXPECT_FALSE(first == third);
+}
+
+#if defined(__GLIBC__)
+// LAW tree.5: what the allocator says it gave, and 8 bytes before each piece.
+template <std::size_t size>
+struct Sized {
+  std::array<double, size / sizeof(double)> values{};
+};
+template <std::size_t size>
+double bytes_per_node_beside_primitives(std::size_t primitives) {
+  using T = BooleanTree<Sized<size>>;
+  std::vector<T> level;
+  for (std::size_t i = 0; i < primitives; ++i) level.push_back(T::primitive({}));
+  std::size_t bytes = 0;
+  const auto count = [&](const T& tree) {
+    bytes += malloc_usable_size(const_cast<void*>(tree.identity())) + 8;
+  };
+  for (const T& tree : level) count(tree);
+  while (level.size() > 1) {
+    std::vector<T> above;
+    for (std::size_t i = 0; i + 1 < level.size(); i += 2) {
+      above.push_back(unite(level[i], level[i + 1]));
+      count(above.back());
+    }
+    if (level.size() % 2 == 1) above.push_back(level.back());
+    level = std::move(above);
+  }
+  return static_cast<double>(bytes - primitives * size) /
+         static_cast<double>(level[0].node_count());
+}
+TEST(Tree, TakesLittleMemory) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr double most = 64;  // their allocators round otherwise
+#else
+  constexpr double most = 48;
+#endif
+  EXPECT_LE(bytes_per_node_beside_primitives<8>(1000), most);
+  EXPECT_LE(bytes_per_node_beside_primitives<16>(1000), most);
+  EXPECT_LE(bytes_per_node_beside_primitives<32>(1000), most);
+  EXPECT_LE(bytes_per_node_beside_primitives<64>(1000), most);
+}
+#endif
 
 TEST(Flatten, RefusesWhatIsTooLargeByName) {
   TestTree tree = leaf(1);

@@ -51,7 +51,7 @@ class FlatTree {
     explicit Cursor(const Node* at) noexcept : at_(at) {}
     NodeKind kind() const noexcept { return at_->kind; }
     const P& primitive() const noexcept { return at_->primitive; }
-    O operation() const noexcept { return at_->operation; }
+    OperationResult<O> operation() const noexcept { return at_->operation; }
     Cursor first_child() const noexcept { return Cursor(at_ + 1); }
     Cursor next_sibling() const noexcept { return Cursor(at_ + at_->extent); }
     Cursor children_end() const noexcept { return next_sibling(); }

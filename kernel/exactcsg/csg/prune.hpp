@@ -21,6 +21,11 @@
 //              of at most as many nodes (prune_into, which may find more to merge).
 // LAW prune.5  prune_into also merges nested operators (a u (b u c) becomes a u b u c); as a truth
 //              function its result equals that of prune.
+// LAW prune.6  of trees with attributes: CutOff{classify, decide} in place of classify asks
+//              decide(attribute) -> Membership at every node that has an attribute first; what is
+//              not Unknown is taken for all of the node's subtree, whose primitives are then not
+//              classified. Where that is the membership of the subtree, LAW prune.1 holds.
+//              Attributes stay as they were: those of a changed tree may be made anew.
 // Operands that cannot matter any more are not classified. No recursion.
 // REQUIRES classify answers alike for equal primitives during one call.
 // COST: prune O(nodes), a node that the source shares counting once; prune_into O(occurrences of
@@ -43,6 +48,7 @@
 
 #include "exactcsg/csg/flat_tree.hpp"
 #include "exactcsg/csg/operator_laws.hpp"
+#include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/csg/tree.hpp"
 #include "exactcsg/csg/tree_concept.hpp"
 
@@ -74,7 +80,7 @@ struct PruneFrame {
   Cursor end;
   Mark mark;  // where its result begins in the sink
   std::size_t kept = 0;
-  O operation;
+  KeptOperation<Cursor, O> operation;
   Position position = Position::First;
   bool complemented = false;   // the result is the complement of what is kept
   bool only_constant = false;  // what is kept is one constant operand
@@ -130,7 +136,11 @@ class Pruner {
 
   // Opens composed nodes down to the first leaf, and prunes that.
   Result descend(Cursor node) {
-    while (node.kind() == NodeKind::Compose) {
+    for (;;) {
+      if constexpr (is_cut_off<Classify>) {
+        if (const std::optional<Pruned> known = cut_off(node)) return {*known};
+      }
+      if (node.kind() != NodeKind::Compose) break;
       if (const std::optional<Pruned> known = sink_.recall(node)) return {*known};
       const Cursor child = node.first_child();
       frames_.push_back({node, child, node.children_end(), sink_.begin(), 0, node.operation()});
@@ -151,6 +161,19 @@ class Pruner {
     return {Pruned::Kept};
   }
 
+  std::optional<Pruned> cut_off(Cursor node) {
+    if (node.kind() == NodeKind::Full || node.kind() == NodeKind::Empty) return std::nullopt;
+    switch (static_cast<Membership>(decided(node, classify_))) {
+      case Membership::Out:
+        return Pruned::Empty;
+      case Membership::In:
+        return Pruned::Full;
+      case Membership::Unknown:
+        break;
+    }
+    return std::nullopt;
+  }
+
   // Takes the next operand; returns the value of the whole node if that decides it.
   std::optional<Constant> receive(Frame& frame, const Result& operand) {
     const Position position = std::exchange(frame.position, Position::Later);
@@ -159,7 +182,8 @@ class Pruner {
       frame.only_constant = false;
       return std::nullopt;
     }
-    switch (react(frame.operation, position, constant(operand.outcome))) {
+    const O& operation = frame.operation;
+    switch (react(operation, position, constant(operand.outcome))) {
       case Reaction::Drop:
         break;
       case Reaction::BecomeEmpty:
@@ -180,7 +204,8 @@ class Pruner {
   // All operands are there.
   Result close(Frame& frame) {
     if (frame.kept == 0) {
-      const Constant value = neutral(frame.operation);
+      const O& operation = frame.operation;
+      const Constant value = neutral(operation);
       sink_.discard(frame.mark);
       return {pruned(frame.complemented ? opposite(value) : value)};
     }
@@ -214,7 +239,9 @@ class Pruner {
     if constexpr (Sink::merges_nested) {
       if (frames_.size() < 2) return false;
       const Frame& parent = frames_[frames_.size() - 2];
-      return splices(parent.operation, parent.position, frame.operation);
+      const O& outer = parent.operation;
+      const O& inner = frame.operation;
+      return splices(outer, parent.position, inner);
     } else {
       return false;
     }
@@ -261,8 +288,7 @@ class HandleSink {
                    [](const Tree<P, O>& a, const Tree<P, O>& b) { return same_handle(a, b); });
     Tree<P, O> result = node.tree();
     if (!unchanged) {
-      result = Tree<P, O>::compose(node.operation(),
-                                   {std::move_iterator(first), std::move_iterator(kept_.end())});
+      result = Tree<P, O>::compose_from(node.operation(), std::span(first, kept_.end()));
     }
     discard(mark);
     kept_.push_back(std::move(result));
@@ -375,6 +401,12 @@ Tree<P, O> prune(const Tree<P, O>& tree, Classify&& classify) {
   std::vector<typename Pruner::Frame> frames;
   const detail::Pruned outcome = Pruner(classify, sink, frames).run(tree.root());
   return sink.value(outcome);
+}
+
+// Without what Empty and Full make superfluous: prune with nothing known of the primitives.
+template <class P, PrunableOperator O>
+Tree<P, O> simplify(const Tree<P, O>& tree) {
+  return prune(tree, [](const P&) { return Membership::Unknown; });
 }
 
 // REQUIRES destination is not the source.

@@ -15,7 +15,12 @@
 // LAW traverse.2  if absorbs(partial, operator) says that no right-hand argument changes partial,
 //                 the remaining children are not visited; the result is the same as without.
 // LAW traverse.3  solve is called from left to right, once for every occurrence visited.
-// LAW traverse.4  with a scratch that has seen a tree as deep, traverse itself allocates nothing.
+// LAW traverse.4  of trees with attributes: CutOff{solve, decide} in place of solve asks
+//                 decide(attribute) or decide(attribute, query) -> optional<R> at every node that
+//                 has an attribute, before anything else; if it has a value, that is the result of
+//                 the node, and what is below it is not visited. Where that value is what the node
+//                 yields anyway, the result is that without the cut-off.
+// LAW traverse.5  with a scratch that has seen a tree as deep, traverse itself allocates nothing.
 // R needs only be movable. No recursion.
 // THROWS Error(NoSpecialResult) if the tree has Full or Empty and no result for it was given, and
 // what the callbacks throw.
@@ -25,6 +30,7 @@
 // overloads, and the early out that section 7.3 misses.
 
 #include <concepts>
+#include <functional>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -53,10 +59,30 @@ FullEmptyResult(F, E) -> FullEmptyResult<F, E>;
 
 struct NeverAbsorbs {
   template <class R, class O>
-  constexpr bool operator()(const R&, O) const noexcept {
+  constexpr bool operator()(const R&, const O&) const noexcept {
     return false;
   }
 };
+
+// A solve that looks at the attributes of attributed.hpp first.
+template <class Solve, class Decide>
+struct CutOff {
+  Solve solve;
+  Decide decide;
+
+  template <class... Arguments>
+  requires std::invocable<Solve&, Arguments...>
+  decltype(auto) operator()(Arguments&&... arguments) {
+    return std::invoke(solve, std::forward<Arguments>(arguments)...);
+  }
+  template <class... Arguments>
+  requires std::invocable<const Solve&, Arguments...>
+  decltype(auto) operator()(Arguments&&... arguments) const {
+    return std::invoke(solve, std::forward<Arguments>(arguments)...);
+  }
+};
+template <class Solve, class Decide>
+CutOff(Solve, Decide) -> CutOff<Solve, Decide>;
 
 // The stack of traverse, kept by the caller between calls. REQUIRES not used by two calls at once.
 template <ReadableTree T, class R>
@@ -65,8 +91,9 @@ class TraverseScratch {
   struct Frame {
     typename T::Cursor child;
     typename T::Cursor end;
-    typename T::Operator operation;
+    KeptOperation<typename T::Cursor, typename T::Operator> operation;
     std::optional<R> partial;
+    const typename T::Operator& op() const noexcept { return operation; }
   };
   std::vector<Frame>& frames() noexcept { return frames_; }
 
@@ -123,35 +150,63 @@ R leaf_result(Cursor node, Solve& solve, const Special& special) {
   }
 }
 
+template <class Solve>
+constexpr bool is_cut_off = false;
+template <class Solve, class Decide>
+constexpr bool is_cut_off<CutOff<Solve, Decide>> = true;
+template <class Solve>
+constexpr bool is_cut_off<const Solve> = is_cut_off<Solve>;
+
+template <class Cursor, class CutOff>
+auto decided(Cursor node, CutOff& cut_off) -> decltype(cut_off.decide(node.primitive().attribute)) {
+  switch (node.kind()) {
+    case NodeKind::Primitive:
+      return cut_off.decide(node.primitive().attribute);
+    case NodeKind::Compose:
+      return cut_off.decide(node.operation().attribute);
+    default:
+      return {};
+  }
+}
+
+// Opens composed nodes down to the first that has a result by itself.
+template <class R, class Cursor, class Frames, class Solve, class Special>
+R descend(Cursor node, Frames& frames, Solve& solve, const Special& special) {
+  for (;;) {
+    if constexpr (is_cut_off<Solve>) {
+      if (std::optional<R> known = decided(node, solve)) return std::move(*known);
+    }
+    if (node.kind() != NodeKind::Compose) return leaf_result<R>(node, solve, special);
+    frames.push_back({node.first_child(), node.children_end(), node.operation(), std::nullopt});
+    node = node.first_child();
+  }
+}
+
 }  // namespace detail
 
 template <class Solve, class P>
 using SolveResult = std::remove_cvref_t<std::invoke_result_t<Solve&, const P&>>;
 
 template <class Combine, class R, class O>
-concept CombinesResults = std::movable<R> && std::is_invocable_r_v<R, Combine&, R&&, O, R&&>;
+concept CombinesResults = std::movable<R> && std::is_invocable_r_v<R, Combine&, R&&, const O&, R&&>;
 
 template <ReadableTree T, std::invocable<const typename T::Primitive&> Solve, class Combine,
           class Special, class Absorbs, class R = SolveResult<Solve, typename T::Primitive>>
 requires CombinesResults<Combine, R, typename T::Operator> &&
-    std::predicate<Absorbs&, const R&, typename T::Operator>
+    std::predicate<Absorbs&, const R&, const typename T::Operator&>
         R traverse(const T& tree, Solve&& solve, Combine&& combine, const Special& special,
                    Absorbs&& absorbs, TraverseScratch<T, R>& scratch) {
   auto& frames = scratch.frames();
   frames.clear();
   typename T::Cursor node = tree.root();
   for (;;) {
-    while (node.kind() == NodeKind::Compose) {
-      frames.push_back({node.first_child(), node.children_end(), node.operation(), std::nullopt});
-      node = node.first_child();
-    }
-    R value = detail::leaf_result<R>(node, solve, special);
+    R value = detail::descend<R>(node, frames, solve, special);
     for (;;) {
       if (frames.empty()) return value;
       auto& top = frames.back();
-      if (top.partial) value = combine(std::move(*top.partial), top.operation, std::move(value));
+      if (top.partial) value = combine(std::move(*top.partial), top.op(), std::move(value));
       top.child = top.child.next_sibling();
-      if (!(top.child == top.end) && !absorbs(std::as_const(value), top.operation)) {
+      if (!(top.child == top.end) && !absorbs(std::as_const(value), top.op())) {
         top.partial = std::move(value);
         node = top.child;
         break;
@@ -165,7 +220,7 @@ template <ReadableTree T, std::invocable<const typename T::Primitive&> Solve, cl
           class Special = NoSpecial, class Absorbs = NeverAbsorbs,
           class R = SolveResult<Solve, typename T::Primitive>>
 requires CombinesResults<Combine, R, typename T::Operator> &&
-    std::predicate<Absorbs&, const R&, typename T::Operator>
+    std::predicate<Absorbs&, const R&, const typename T::Operator&>
         R traverse(const T& tree, Solve&& solve, Combine&& combine, const Special& special = {},
                    Absorbs&& absorbs = {}) {
   TraverseScratch<T, R> scratch;
@@ -177,9 +232,15 @@ template <ReadableTree T, class Query,
           std::invocable<const typename T::Primitive&, const Query&> Solve, class Combine,
           class... Rest>
 auto traverse(const T& tree, const Query& query, Solve&& solve, Combine&& combine, Rest&&... rest) {
-  return traverse(
-      tree, [&](const typename T::Primitive& primitive) { return solve(primitive, query); },
-      combine, std::forward<Rest>(rest)...);
+  const auto about_query = [&](const typename T::Primitive& primitive) {
+    return solve(primitive, query);
+  };
+  if constexpr (detail::is_cut_off<std::remove_reference_t<Solve>>) {
+    const auto decide = [&](const auto& attribute) { return solve.decide(attribute, query); };
+    return traverse(tree, CutOff{about_query, decide}, combine, std::forward<Rest>(rest)...);
+  } else {
+    return traverse(tree, about_query, combine, std::forward<Rest>(rest)...);
+  }
 }
 
 }  // namespace exactcsg::csg

@@ -12,12 +12,20 @@
 
 #include <concepts>
 #include <cstdint>
+#include <functional>
 #include <type_traits>
+#include <utility>
 
 namespace exactcsg::csg {
 
 // Davy and Dew, section 3.2: Emptysolid, Fullsolid, Primitive(rho), Compose(...).
 enum class NodeKind : std::uint8_t { Empty, Full, Primitive, Compose };
+
+// How cursors hand out operators: small ones by value, which is quicker; others, say with an
+// attribute, by reference.
+template <class O>
+using OperationResult =
+    std::conditional_t<std::is_trivially_copyable_v<O> && sizeof(O) <= sizeof(void*), O, const O&>;
 
 template <class C, class P, class O>
 concept TreeCursor = std::copyable<C> && std::equality_comparable<C> && requires(const C cursor) {
@@ -25,7 +33,7 @@ concept TreeCursor = std::copyable<C> && std::equality_comparable<C> && requires
   // REQUIRES kind() == Primitive
   { cursor.primitive() } -> std::convertible_to<const P&>;
   // REQUIRES kind() == Compose, these three
-  { cursor.operation() } -> std::convertible_to<O>;
+  { cursor.operation() } -> std::convertible_to<const O&>;
   { cursor.first_child() } -> std::same_as<C>;
   { cursor.children_end() } -> std::same_as<C>;
   // REQUIRES the node is a child
@@ -40,5 +48,11 @@ concept ReadableTree = requires(const T& tree) {
   { tree.root() } -> std::same_as<typename T::Cursor>;
 }
 &&TreeCursor<typename T::Cursor, typename T::Primitive, typename T::Operator>;
+
+// The operator of a node whose cursor is gone: a value, or a reference into the tree.
+template <class Cursor, class O>
+using KeptOperation = std::conditional_t<
+    std::is_lvalue_reference_v<decltype(std::declval<const Cursor&>().operation())>,
+    std::reference_wrapper<const O>, O>;
 
 }  // namespace exactcsg::csg

@@ -79,6 +79,11 @@ struct EarlyOut {
   decltype(auto) operator()(Arguments&&... arguments) {
     return std::invoke(combine, std::forward<Arguments>(arguments)...);
   }
+  template <class... Arguments>
+  requires std::invocable<const Combine&, Arguments...>
+  decltype(auto) operator()(Arguments&&... arguments) const {
+    return std::invoke(combine, std::forward<Arguments>(arguments)...);
+  }
 };
 template <class Combine, class Enough>
 EarlyOut(Combine, Enough) -> EarlyOut<Combine, Enough>;
