@@ -15,6 +15,7 @@
 
 #include "csg/chains.hpp"
 #include "csg/random_tree.hpp"
+#include "exactcsg/csg/attributed.hpp"
 #include "exactcsg/csg/flat_tree.hpp"
 #include "exactcsg/number/exact.hpp"
 
@@ -173,11 +174,71 @@ RC_GTEST_PROP(TextProperty, NumbersComeBack, (double x, std::int64_t i)) {
   RC_ASSERT(from_text(to_text(tree, put_both), get_both) == tree);
 }
 
+// Attributed trees: attributes before their nodes, none at Empty and Full.
+using Numbered = AttributedTree<int, BooleanOperator, std::int64_t>;
+const auto put_number = [](TextWriter& out, std::int64_t n) { out.write(n); };
+const auto get_number = [](TextReader& in) { return in.number<std::int64_t>("an attribute"); };
+
+Numbered random_numbers(std::mt19937& random, const TestTree& tree) {
+  return attribute(
+      tree, [&](int) { return static_cast<std::int64_t>(random()); },
+      [](std::int64_t a, BooleanOperator, std::int64_t b) { return a - b; },
+      FullEmptyResult{std::int64_t{1}, std::int64_t{0}});
+}
+
+TEST(Text, AttributedTrees) {
+  const Numbered tree =
+      from_text("@1 (- @-2 7 full @3 (+ @4 8 empty))", get_int, BooleanCodes{}, get_number);
+  EXPECT_EQ(attribute_of(tree), 1);
+  EXPECT_EQ(attribute_of(tree.children()[0]), -2);
+  EXPECT_EQ(tree.children()[0].primitive().value, 7);
+  EXPECT_EQ(attribute_of(tree.children()[2].children()[0]), 4);
+  EXPECT_EQ(without_attributes(tree), from_text("(- 7 full (+ 8 empty))", get_int));
+  EXPECT_EQ(to_text(tree, put_int, BooleanCodes{}, put_number),
+            "@1 (- @-2 7 full @3 (+ @4 8 empty))");
+  // The functions for plain trees serve too, and leave the attributes out.
+  EXPECT_EQ(to_text(tree, put_int), "(- 7 full (+ 8 empty))");
+}
+
+TEST(Text, ErrorsOfAttributedTreesSayWhere) {
+  const auto error = [](std::string_view text) -> std::string {
+    try {
+      from_text(text, get_int, BooleanCodes{}, get_number);
+    } catch (const Error& e) {
+      const auto& position = e.details().position;
+      return std::string(describe(e.id()).code) + " " + std::to_string(position->line) + ":" +
+             std::to_string(position->column);
+    }
+    return "";
+  };
+  EXPECT_EQ(error("@1 5"), "");
+  EXPECT_EQ(error("5"), "E0101 1:1");
+  EXPECT_EQ(error("@1"), "E0102 1:3");
+  EXPECT_EQ(error("@1 @2 5"), "E0101 1:4");
+  EXPECT_EQ(error("@1 empty"), "E0101 1:4");
+  EXPECT_EQ(error("@1 (+ @2 3\n 4)"), "E0101 2:2");
+  EXPECT_EQ(error("@1 (+ @2 3 @4)"), "E0101 1:14");
+  EXPECT_EQ(error("@x 5"), "E0101 1:2");
+  EXPECT_EQ(error("@1 (+ @2 3"), "E0102 1:11");
+}
+
+RC_GTEST_PROP(TextProperty, ReadingUndoesWritingOfAttributes, ()) {
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  const Numbered tree = random_numbers(random, random_tree(random, *rc::gen::inRange(0, 8), 1000));
+  const std::string text = to_text(tree, put_int, BooleanCodes{}, put_number);
+  RC_ASSERT(from_text(text, get_int, BooleanCodes{}, get_number) == tree);
+}
+
 // A chain of a million operators, on either side.
 TEST(Text, AMillionDeep) {
   for (const Side side : {Side::Left, Side::Right, Side::Single}) {
     const auto tree = chain(chain_depth, BooleanOperator::Difference, side, 7);
     EXPECT_TRUE(from_text(to_text(tree, put_int), get_int) == tree);
+    if (side != Side::Right) continue;
+    std::mt19937 random(1);
+    const auto numbered = random_numbers(random, tree);
+    const auto text = to_text(numbered, put_int, BooleanCodes{}, put_number);
+    EXPECT_TRUE(from_text(text, get_int, BooleanCodes{}, get_number) == numbered);
   }
 }
 

@@ -138,6 +138,11 @@ class TextReader {
     fail(ErrorId::UnexpectedText, quoted({at_, 1}), std::string(expected));
   }
 
+  // Error about what was last looked at.
+  [[noreturn]] void unexpected_token(std::string_view expected) const {
+    fail(ErrorId::UnexpectedText, quoted({token_, static_cast<std::size_t>(at_ - token_)}),
+         std::string(expected));
+  }
   // Error at the end of the text about a bracket before it.
   [[noreturn]] void not_closed(std::size_t offset_of_bracket) const {
     const SourcePosition opened = position_of(offset_of_bracket);
