@@ -73,11 +73,10 @@ struct ZipAlgorithm {
   };
   using Result = R;
 
-  bool is_leaf(const Problem& problem) const { return problem.split == Split::Neither; }
-
   template <class Receive>
-  void divide(Problem& problem, Receive&& receive) {
+  std::optional<R> expand(Problem& problem, Receive&& receive) {
     const Both& pair = problem.pair;
+    if (problem.split == Split::Neither) return solve(pair);
     const std::size_t parts = degree(problem);
     for (std::size_t i = 0; i < parts; ++i) {
       std::optional<S> state = part(pair, problem.split, i);
@@ -86,14 +85,6 @@ struct ZipAlgorithm {
                      problem.split == Split::First ? pair.second : pair.second.child(i),
                      *std::move(state)}));
     }
-  }
-
-  R solve(Problem&& problem) { return solve_(std::as_const(problem.pair)); }
-
-  template <class Receive>
-  std::optional<R> expand(Problem& problem, Receive&& receive) {
-    if (is_leaf(problem)) return solve(std::move(problem));
-    divide(problem, receive);
     return std::nullopt;
   }
 
@@ -127,7 +118,7 @@ struct ZipAlgorithm {
 
   Side& side;
   Part& part;
-  Solve& solve_;
+  Solve& solve;
   Combine& combine_;
 };
 
