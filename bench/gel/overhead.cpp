@@ -37,6 +37,10 @@ double area_of_leaf(const Local& local) {
   return at_middle == PointClass::Out ? 0 : size_of(local.cell);
 }
 
+std::array<Local, 4> quadrants(const Local& local) {
+  return {localised(local, 0), localised(local, 1), localised(local, 2), localised(local, 3)};
+}
+
 [[gnu::noinline]] PointClass generic_membership(const Planar& solid, const PlanarPoint& point) {
   return csg::traverse(
       solid, [&](const PlanarHalfSpace& h) { return classify(h, point); },
@@ -84,12 +88,7 @@ double area_of_leaf(const Local& local) {
 [[gnu::noinline]] double generic_area(const Planar& solid) {
   return skeleton::divacon(
       Local{unit_square, solid},
-      [](const Local& local) { return local.depth == deepest || is_decided(local); },
-      [](const Local& local) {
-        std::array<Local, 4> quadrants;
-        for (std::size_t i = 0; i < 4; ++i) quadrants[i] = localised(local, i);
-        return quadrants;
-      },
+      [](const Local& local) { return local.depth == deepest || is_decided(local); }, quadrants,
       [](const Local& local) { return area_of_leaf(local); },
       [](std::span<double> parts) { return parts[0] + parts[1] + parts[2] + parts[3]; });
 }
@@ -114,12 +113,7 @@ using AreaTree = gdt::Tree<double>;
 
 AreaTree area_tree(const Planar& solid) {
   return gdt::create(
-      Local{unit_square, solid}, is_decided,
-      [](const Local& local) {
-        std::array<Local, 4> quadrants;
-        for (std::size_t i = 0; i < 4; ++i) quadrants[i] = localised(local, i);
-        return quadrants;
-      },
+      Local{unit_square, solid}, is_decided, quadrants,
       [](const Local& local) { return area_of_leaf(local); }, deepest);
 }
 

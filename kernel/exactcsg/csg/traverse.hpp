@@ -84,6 +84,33 @@ struct CutOff {
 template <class Solve, class Decide>
 CutOff(Solve, Decide) -> CutOff<Solve, Decide>;
 
+namespace detail {
+
+// A result that may not be there yet: as std::optional, but what costs nothing to make is always
+// made, which is faster.
+template <class R>
+class PlainPartial {
+ public:
+  PlainPartial(std::nullopt_t) noexcept {}
+  PlainPartial& operator=(R value) noexcept {
+    value_ = value;
+    has_value_ = true;
+    return *this;
+  }
+  explicit operator bool() const noexcept { return has_value_; }
+  R& operator*() noexcept { return value_; }
+
+ private:
+  R value_{};
+  bool has_value_ = false;
+};
+template <class R>
+using Partial = std::conditional_t<std::is_trivially_copyable_v<R> && sizeof(R) <= sizeof(void*) &&
+                                       std::is_default_constructible_v<R>,
+                                   PlainPartial<R>, std::optional<R>>;
+
+}  // namespace detail
+
 // The stack of traverse, kept by the caller between calls. REQUIRES not used by two calls at once.
 template <ReadableTree T, class R>
 class TraverseScratch {
@@ -92,7 +119,7 @@ class TraverseScratch {
     typename T::Cursor child;
     typename T::Cursor end;
     KeptOperation<typename T::Cursor, typename T::Operator> operation;
-    std::optional<R> partial;
+    detail::Partial<R> partial;
     const typename T::Operator& op() const noexcept { return operation; }
   };
   std::vector<Frame>& frames() noexcept { return frames_; }

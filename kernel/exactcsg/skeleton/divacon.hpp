@@ -141,7 +141,9 @@ void hand_out(Parts&& parts, Receive& receive) {
   constexpr bool ours =
       !std::is_lvalue_reference_v<Parts> && !std::ranges::view<std::remove_cvref_t<Parts>>;
   for (auto&& part : parts) {
-    if constexpr (ours && std::constructible_from<D, decltype(std::move(part))>) {
+    if constexpr (ours && std::same_as<decltype(part), D&>) {
+      receive(std::move(part));
+    } else if constexpr (ours && std::constructible_from<D, decltype(std::move(part))>) {
       receive(D(std::move(part)));
     } else {
       receive(D(part));

@@ -38,11 +38,11 @@
 #include <cstddef>
 #include <exception>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "exactcsg/skeleton/hand_over.hpp"
@@ -111,30 +111,34 @@ class SequentialRun {
       : algorithm_(algorithm), interrupt_(interrupt) {}
 
   Result operator()(Problem root) {
-    pending_.emplace_back(std::in_place_index<0>, std::move(root));
+    pending_.emplace_back(std::move(root));
     while (!pending_.empty()) {
       interrupt_();
-      if (pending_.back().index() == 1) {
-        combine_last();
-      } else {
+      if (pending_.back().first_result == not_expanded) {
         expand_last();
+      } else {
+        combine_last();
       }
     }
     return std::move(results_.back());
   }
 
  private:
-  struct Join {
+  static constexpr std::size_t not_expanded = std::numeric_limits<std::size_t>::max();
+
+  // A problem stays where it is until its result is there: it is moved in once, and lent.
+  struct Pending {
+    explicit Pending(Problem&& given) : problem(std::move(given)) {}
     Problem problem;
-    std::size_t first_result;
+    std::size_t first_result = not_expanded;  // of those of its subproblems
   };
 
   void combine_last() {
-    Join& join = *std::get_if<1>(&pending_.back());
-    const auto first = results_.begin() + static_cast<std::ptrdiff_t>(join.first_result);
+    Pending& last = pending_.back();
+    const auto first = results_.begin() + static_cast<std::ptrdiff_t>(last.first_result);
     auto result = algorithm_.combine(
-        std::span(results_.data() + join.first_result, results_.size() - join.first_result),
-        std::move(join.problem));
+        std::span(results_.data() + last.first_result, results_.size() - last.first_result),
+        std::move(last.problem));
     results_.erase(first, results_.end());
     pending_.pop_back();
     if constexpr (StopsEarly<A>) joins_.pop_back();
@@ -142,17 +146,20 @@ class SequentialRun {
   }
 
   void expand_last() {
-    Problem problem = std::move(*std::get_if<0>(&pending_.back()));
-    pending_.pop_back();
     parts_.clear();
-    if (auto solved = expand(algorithm_, problem,
+    if (auto solved = expand(algorithm_, pending_.back().problem,
                              [this](Problem&& part) { parts_.push_back(std::move(part)); })) {
+      pending_.pop_back();
       return receive_result(std::move(*solved));
     }
-    if constexpr (StopsEarly<A>) joins_.push_back(pending_.size());
-    pending_.emplace_back(std::in_place_index<1>, Join{std::move(problem), results_.size()});
+    if constexpr (StopsEarly<A>) joins_.push_back(pending_.size() - 1);
+    pending_.back().first_result = results_.size();
+    // What combine does not ask for need not wait for it.
+    if constexpr (requires { requires !A::keeps_data; }) {
+      [[maybe_unused]] const Problem released = std::move(pending_.back().problem);
+    }
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) {
-      pending_.emplace_back(std::in_place_index<0>, std::move(*part));
+      pending_.emplace_back(std::move(*part));
     }
   }
 
@@ -160,8 +167,7 @@ class SequentialRun {
     if constexpr (StopsEarly<A>) {
       if (!joins_.empty()) {
         const auto join = pending_.begin() + static_cast<std::ptrdiff_t>(joins_.back());
-        if (algorithm_.enough(std::as_const(result),
-                              std::as_const(std::get_if<1>(&*join)->problem))) {
+        if (algorithm_.enough(std::as_const(result), std::as_const(join->problem))) {
           pending_.erase(join + 1, pending_.end());
         }
       }
@@ -171,7 +177,7 @@ class SequentialRun {
 
   A& algorithm_;
   Interrupt& interrupt_;
-  std::vector<std::variant<Problem, Join>> pending_;
+  std::vector<Pending> pending_;
   std::vector<std::size_t> joins_;  // where they are in pending_, if the algorithm stops early
   Array<Result> results_;
   std::vector<Problem> parts_;
