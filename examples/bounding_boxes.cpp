@@ -3,8 +3,8 @@
 // question does not reach.
 //
 // A row of 1000 balls of radius 1/4, one at every integer x, united in pairs, pairs of pairs and so
-// on. Their boxes do not overlap, so that a point leaves at most one ball to be asked: the one whose
-// box it is in.
+// on. Their boxes do not overlap, so that a point leaves at most one ball to be asked: the one
+// whose box it is in.
 
 #include <algorithm>
 #include <array>
