@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <ranges>
+#include <numeric>
 
 namespace exactcsg {
 
@@ -108,11 +108,12 @@ std::optional<std::vector<std::uint32_t>> image_of(const std::vector<T>& items,
   if (!std::is_sorted(items.begin(), items.end(), less)) return std::nullopt;
   std::vector<std::uint32_t> image;
   image.reserve(items.size());
-  const std::ranges::iota_view indices(std::uint32_t{0}, static_cast<std::uint32_t>(items.size()));
+  std::vector<std::uint32_t> indices(items.size());
+  std::iota(indices.begin(), indices.end(), 0U);
   for (const T& item : items) {
     const T target = mirror(item);
     const auto before = precedes(target);
-    const auto at = std::ranges::partition_point(indices, before);
+    const auto at = std::partition_point(indices.begin(), indices.end(), before);
     if (at == indices.end() || !(items[*at] == target)) return std::nullopt;
     image.push_back(*at);
   }
