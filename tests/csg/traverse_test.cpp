@@ -12,6 +12,7 @@
 #include "csg/chains.hpp"
 #include "csg/random_tree.hpp"
 #include "exactcsg/csg/flat_tree.hpp"
+#include "exactcsg/csg/membership.hpp"
 #include "exactcsg/csg/prune.hpp"
 #include "exactcsg/csg/text.hpp"
 
@@ -129,6 +130,8 @@ TEST(Traverse, ClassifiesAsTheTruthTableSays) {
       ASSERT_EQ(traverse(tree, solve, combine, constants, absorbing), truth);
       ASSERT_EQ(traverse(flat, solve, combine, constants, absorbing, scratch), truth);
       ASSERT_EQ(traverse(pruned, solve, combine, constants, absorbing, scratch), truth);
+      ASSERT_EQ(membership_of(tree, solve), truth);  // LAW membership.1
+      ASSERT_EQ(membership_of(flat, solve), truth);
     }
   }
 }

@@ -33,8 +33,8 @@
 #include <utility>
 #include <vector>
 
+#include "exactcsg/csg/membership.hpp"
 #include "exactcsg/csg/prune.hpp"
-#include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/csg/tree.hpp"
 #include "exactcsg/csg/walk.hpp"
 #include "exactcsg/domain/half_space.hpp"
@@ -43,13 +43,6 @@
 namespace exactcsg::domain {
 
 namespace detail {
-
-template <class P, class Solve>
-csg::Membership membership_of(const csg::BooleanTree<P>& tree, Solve&& solve) {
-  return csg::traverse(tree, solve, csg::combine,
-                       csg::FullEmptyResult{csg::Membership::In, csg::Membership::Out},
-                       csg::absorbs);
-}
 
 // Of one primitive in the cell that the germ names. REQUIRES the point is On it
 template <std::size_t D>
@@ -79,7 +72,7 @@ requires(D == 2 || D == 3) PointClass
   bool has_in = false;
   bool has_out = false;
   for (const Germ<D>& germ : germs) {
-    const csg::Membership value = membership_of(tree, [&](const HalfSpace<D>& half_space) {
+    const csg::Membership value = csg::membership_of(tree, [&](const HalfSpace<D>& half_space) {
       return membership_at(half_space, point, germ);
     });
     complete = complete && value != csg::Membership::Unknown;
@@ -97,7 +90,7 @@ requires(D == 2 || D == 3) PointClass
 template <Domain P>
 PointClass classify(const csg::BooleanTree<P>& tree, const Point<P::dimension>& point) {
   const auto solve = [&](const P& primitive) { return membership(classify(primitive, point)); };
-  csg::Membership known = detail::membership_of(tree, solve);
+  csg::Membership known = csg::membership_of(tree, solve);
   if (known == csg::Membership::Unknown) {
     const auto local = csg::prune(tree, solve);
     if (local.primitive_count() == 1) return PointClass::On;  // it, or its complement
@@ -115,7 +108,7 @@ PointClass classify(const csg::BooleanTree<P>& tree, const Point<P::dimension>& 
 
 template <Domain P>
 csg::Membership classify(const csg::BooleanTree<P>& tree, const Box<P::dimension>& box) {
-  return detail::membership_of(tree, [&](const P& primitive) { return classify(primitive, box); });
+  return csg::membership_of(tree, [&](const P& primitive) { return classify(primitive, box); });
 }
 
 template <Domain P>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "exactcsg/csg/traverse.hpp"
+#include "exactcsg/csg/membership.hpp"
 #include "exactcsg/number/orientation.hpp"
 #include "exactcsg/solid/local_form.hpp"
 #include "exactcsg/solid/nearest_crossing.hpp"
@@ -35,20 +35,13 @@ class SinglePoint {
   explicit SinglePoint(const Point3& point) : point_(point) {}
 
   PointClass classify(const Solid& solid) {
-    const auto combine = [](Membership a, csg::BooleanOperator op, Membership b) {
-      return csg::combine(a, op, b);
-    };
-    const auto absorbs = [](Membership a, csg::BooleanOperator op) { return csg::absorbs(a, op); };
-    const csg::FullEmptyResult special{Membership::In, Membership::Out};
-    const Membership around = csg::traverse(
-        solid, [&](const Primitive& primitive) { return near_point(primitive).membership; },
-        combine, special, absorbs);
+    const Membership around = csg::membership_of(
+        solid, [&](const Primitive& primitive) { return near_point(primitive).membership; });
     if (around == Membership::In) return PointClass::In;
     if (around == Membership::Out) return PointClass::Out;
     return classify_neighbourhood(planes_, [&](std::span<const Sign> sides) {
-      return csg::traverse(
-          solid, [&](const Primitive& primitive) { return walk(near_point(primitive), sides); },
-          combine, special, absorbs);
+      return csg::membership_of(
+          solid, [&](const Primitive& primitive) { return walk(near_point(primitive), sides); });
     });
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "exactcsg/csg/membership.hpp"
 #include "exactcsg/skeleton/divacon.hpp"
 #include "exactcsg/solid/canonical_boundary.hpp"
 #include "exactcsg/solid/classify.hpp"
@@ -100,9 +101,7 @@ class Evaluation {
   // The only primitive of the cell: its facets are boundary as they are, or not at all.
   void emit_primitive(const CellTask& cell, PieceBuffer& buffer) const {
     const auto truth = [&](Membership status) {
-      return csg::traverse(
-          cell.tree, [&](PrimitiveIndex) { return status; }, csg::combine,
-          csg::FullEmptyResult{Membership::In, Membership::Out});
+      return csg::membership_of(cell.tree, [&](PrimitiveIndex) { return status; });
     };
     const Membership inside = truth(Membership::In);
     if (inside == truth(Membership::Out)) return;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "exactcsg/csg/traverse.hpp"
+#include "exactcsg/csg/membership.hpp"
 #include "exactcsg/gdt/create.hpp"
 #include "exactcsg/solid/classify.hpp"
 #include "exactcsg/solid/decomposition.hpp"
@@ -148,12 +148,9 @@ Membership walk(const RetainedCell& cell, LocalPlace place, SideOf side_of) {
 
 template <class SideOf>
 Membership membership(const RetainedCell& cell, SideOf side_of) {
-  return csg::traverse(
-      cell.tree,
-      [&](PrimitiveIndex primitive) { return walk(cell, cell.root_of(primitive), side_of); },
-      [](Membership a, csg::BooleanOperator op, Membership b) { return csg::combine(a, op, b); },
-      csg::FullEmptyResult{Membership::In, Membership::Out},
-      [](Membership a, csg::BooleanOperator op) { return csg::absorbs(a, op); });
+  return csg::membership_of(cell.tree, [&](PrimitiveIndex primitive) {
+    return walk(cell, cell.root_of(primitive), side_of);
+  });
 }
 
 PointClass classify_in(const Geometry& geometry, const RetainedCell& cell, const Query& query) {
