@@ -31,6 +31,8 @@
 #include <vector>
 
 #include "exactcsg/csg/operator_laws.hpp"
+#include "exactcsg/csg/reduce.hpp"
+#include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/csg/tree.hpp"
 #include "exactcsg/csg/tree_concept.hpp"
 #include "exactcsg/csg/walk.hpp"
@@ -92,34 +94,13 @@ class BinaryView {
 
 template <ReadableTree T>
 auto to_tree(const T& tree) -> Tree<typename T::Primitive, typename T::Operator> {
-  using Cursor = typename T::Cursor;
   using Target = Tree<typename T::Primitive, typename T::Operator>;
-  std::vector<Target> results;
-  std::vector<std::size_t> begins;
-  walk(
-      tree.root(),
-      [&](Cursor) {
-        begins.push_back(results.size());
-        return true;
+  return reduce(
+      tree, [](const typename T::Primitive& primitive) { return Target::primitive(primitive); },
+      [](const typename T::Operator& operation, std::span<Target> children) {
+        return Target::compose_from(operation, children);
       },
-      [&](Cursor node) {
-        switch (node.kind()) {
-          case NodeKind::Full:
-            return results.push_back(Target::full());
-          case NodeKind::Primitive:
-            return results.push_back(Target::primitive(node.primitive()));
-          default:
-            return results.push_back(Target::empty());
-        }
-      },
-      [&](Cursor node) {
-        const auto first = results.begin() + static_cast<std::ptrdiff_t>(begins.back());
-        begins.pop_back();
-        Target composed = Target::compose_from(node.operation(), std::span(first, results.end()));
-        results.erase(first, results.end());
-        results.push_back(std::move(composed));
-      });
-  return std::move(results.back());
+      FullEmptyResult{Target::full(), Target::empty()});
 }
 
 template <class P, PrunableOperator O>
