@@ -35,16 +35,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "exactcsg/csg/node_limit.hpp"
 #include "exactcsg/csg/operator_laws.hpp"
 #include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/csg/tree.hpp"
 #include "exactcsg/csg/walk.hpp"
-#include "exactcsg/support/error.hpp"
 
 namespace exactcsg::csg {
 
@@ -128,8 +127,6 @@ Tree<P, O> without_attributes(const Tree<Attributed<P, A>, Attributed<O, A>>& tr
       [](const Attributed<O, A>& operation) { return operation.value; });
 }
 
-constexpr std::uint64_t default_inherit_limit = 50'000'000;
-
 // descend(const A& of_root, const A& own) -> A;
 // descend(const A& parent, const O&, size_t index, const A& own) -> A
 template <std::copyable P, std::copyable O, std::copyable A, class Descend>
@@ -137,12 +134,9 @@ requires std::is_invocable_r_v<A, Descend&, const A&, const A&> &&
     std::is_invocable_r_v<A, Descend&, const A&, const O&, std::size_t, const A&>
         AttributedTree<P, O, A> inherit(const Tree<Attributed<P, A>, Attributed<O, A>>& tree,
                                         const A& root_attribute, Descend&& descend,
-                                        std::uint64_t limit = default_inherit_limit) {
+                                        std::uint64_t limit = default_node_limit) {
   using T = AttributedTree<P, O, A>;
-  if (tree.node_count() > limit) {
-    throw Error(ErrorId::TooLarge, {"a CSG tree of " + std::to_string(tree.node_count()) + " nodes",
-                                    "at most " + std::to_string(limit)});
-  }
+  require_node_limit(tree.node_count(), limit);
   struct Open {
     Attributed<O, A> operation;
     std::size_t first_result;

@@ -14,10 +14,10 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
+#include "exactcsg/csg/node_limit.hpp"
 #include "exactcsg/csg/tree.hpp"
 #include "exactcsg/csg/tree_concept.hpp"
 #include "exactcsg/csg/walk.hpp"
@@ -135,21 +135,15 @@ class FlatTree {
   std::vector<Node> nodes_;
 };
 
-constexpr std::uint64_t default_flatten_limit = 50'000'000;
-
 // The same tree, flat, with map_primitive(primitive) in place of every occurrence of a primitive.
-// THROWS Error(TooLarge), before any work, if the tree has more than `limit` nodes (a tree with
-// shared subtrees may stand for exponentially many).
+// THROWS Error(TooLarge), before any work, if the tree has more than `limit` nodes.
 // COST: O(occurrences of nodes).
 template <class P, class O, std::invocable<const P&> MapPrimitive>
 auto flatten(const Tree<P, O>& tree, MapPrimitive&& map_primitive,
-             std::uint64_t limit = default_flatten_limit)
+             std::uint64_t limit = default_node_limit)
     -> FlatTree<std::remove_cvref_t<std::invoke_result_t<MapPrimitive&, const P&>>, O> {
   using Flat = FlatTree<std::remove_cvref_t<std::invoke_result_t<MapPrimitive&, const P&>>, O>;
-  if (tree.node_count() > limit) {
-    throw Error(ErrorId::TooLarge, {"a CSG tree of " + std::to_string(tree.node_count()) + " nodes",
-                                    "at most " + std::to_string(limit)});
-  }
+  require_node_limit(tree.node_count(), limit);
   Flat flat;
   flat.reserve(tree.node_count());
   std::vector<typename Flat::OpenNode> open;
