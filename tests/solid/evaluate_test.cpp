@@ -176,6 +176,51 @@ TEST(CanonicalBoundary, TouchingEdgesAndVertices) {
   expect_counts(csg::unite(box(0, 0, 0, 1, 1, 1), box(1, 1, 1, 2, 2, 2)), 15, 24, 12);
 }
 
+// A prism with an edge on the z axis from z0 to z1; u and v are the other corners of its section,
+// counter-clockwise.
+Solid prism_on_axis(const Rational& z0, const Rational& z1, const Vector3& u, const Vector3& v) {
+  return Solid::primitive({make_convex_polytope(Polyhedron{
+      {{0, 0, z0}, {u.x, u.y, z0}, {v.x, v.y, z0}, {0, 0, z1}, {u.x, u.y, z1}, {v.x, v.y, z1}},
+      {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}})});
+}
+
+// No two facets lie in one plane, and yet edges meet: counts by hand.
+TEST(CanonicalBoundary, EdgesOfFacetsAloneInTheirPlanes) {
+  const Vector3 u{1, 0, 0};
+  const Vector3 v{1, 1, 0};
+  const Vector3 opposite_u{-3, -1, 0};
+  const Vector3 opposite_v{-3, -2, 0};
+  const Solid prism = prism_on_axis(0, 2, u, v);
+  // The edges on the axis, [0, 2] and [1, 3], have [1, 2] in common: three edges for two.
+  const Solid shifted = prism_on_axis(1, 3, opposite_u, opposite_v);
+  expect_counts(csg::unite(prism, shifted), 6 + 6, 9 + 9 + 1, 5 + 5);
+  // One inside the other: three edges for two as well.
+  const Solid shorter = prism_on_axis(Rational(1, 2), 1, opposite_u, opposite_v);
+  expect_counts(csg::unite(prism, shorter), 6 + 6, 9 + 9 + 1, 5 + 5);
+  expect_counts(csg::unite(shorter, prism), 6 + 6, 9 + 9 + 1, 5 + 5);
+  // [0, 2] and [2, 3] share a vertex only.
+  const Solid above = prism_on_axis(2, 3, opposite_u, opposite_v);
+  expect_counts(csg::unite(prism, above), 6 + 6 - 1, 9 + 9, 5 + 5);
+  // Three in a row on the axis beside one long edge, which they cut into [0, 1], [1, 2], [2, 3].
+  const Solid row = csg::unite(prism_on_axis(0, 1, opposite_u, opposite_v),
+                               csg::unite(prism_on_axis(1, 2, {0, -1, 0}, {1, -5, 0}),
+                                          prism_on_axis(2, 3, {-7, 1, 0}, {-7, -1, 0})));
+  expect_counts(csg::unite(prism_on_axis(0, 3, u, v), row), 4 * 6 - 4, 4 * 9 - 1, 4 * 5);
+  // An edge along y crosses the one along z at a point inside both.
+  const AffineMap to_y{{{{0, 1, 0, 0}, {0, 0, 1, -1}, {1, 0, 0, 1}}}};
+  const Solid across = apply(to_y, prism_on_axis(0, 2, {0, -1, 0}, {1, -3, 0}));
+  expect_counts(csg::unite(prism, across), 6 + 6 + 1, 9 + 9 + 2, 5 + 5);
+  // LAW boundary.1: the same solid from halves, whose common facets have two in one plane.
+  const auto in_halves = [&](const Solid& other) {
+    return csg::unite(
+        csg::unite(prism_on_axis(0, Rational(1, 3), u, v), prism_on_axis(Rational(1, 3), 2, u, v)),
+        other);
+  };
+  for (const Solid& other : {shifted, shorter, above, across}) {
+    EXPECT_EQ(digest(evaluate(csg::unite(prism, other))), digest(evaluate(in_halves(other))));
+  }
+}
+
 // LAW boundary.1
 TEST(CanonicalBoundary, DoesNotDependOnTreeCellsOrThreads) {
   AffineMap turn = AffineMap::identity();

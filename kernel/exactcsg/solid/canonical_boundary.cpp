@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -15,6 +16,7 @@
 #include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/line_interning.hpp"
 #include "exactcsg/solid/nearest_crossing.hpp"
+#include "exactcsg/solid/settled_facets.hpp"
 #include "exactcsg/solid/vertex_interning.hpp"
 
 namespace exactcsg {
@@ -75,6 +77,25 @@ struct LineContent {
   std::vector<VertexNumber> stations;
 };
 
+// An edge between two settled facets. It is no part of a numbered line: no other piece lies in the
+// plane of either.
+struct SettledEdge {
+  PlaneRef first;
+  PlaneRef second;  // first < second
+  VertexNumber from;
+  VertexNumber to;  // from < to
+  PrimitiveIndex primitive;
+};
+
+// The only piece in its plane.
+struct SettledFace {
+  OrientedPlaneRef plane;
+  PieceNumber piece;
+  bool has_settled_sides_only;
+  std::vector<VertexNumber> loop;      // the face on the left, seen from outside
+  std::vector<bool> has_settled_side;  // from corner i of the loop to the next
+};
+
 class Merger {
  public:
   Merger(const Scene& scene, const std::vector<PieceBuffer>& buffers, unsigned threads,
@@ -83,6 +104,7 @@ class Merger {
         geometry_(scene.geometry),
         threads_(threads),
         progress_(progress),
+        settled_(settled_facets(scene, buffers)),
         faces_(count_pieces(buffers)) {
     number_vertices(buffers);
   }
@@ -111,7 +133,7 @@ class Merger {
     if (progress_ != nullptr) progress_->check();
   }
 
-  // Sets vertices_ and edges_.
+  // Sets vertices_, edges_, settled_edges_ and settled_faces_.
   void number_vertices(const std::vector<PieceBuffer>& buffers) {
     std::vector<const Vertex*> corners;
     for (const PieceBuffer& buffer : buffers) {
@@ -124,14 +146,16 @@ class Merger {
     PieceNumber number = 0;
     for (const PieceBuffer& buffer : buffers) {
       for (const BoundaryPiece& piece : buffer.pieces) {
-        for (std::uint32_t i = 0; i < piece.corner_count; ++i) {
-          const std::uint32_t next = i + 1 == piece.corner_count ? 0 : i + 1;
-          VertexNumber from = interned.number[base + piece.first_corner + i];
-          VertexNumber to = interned.number[base + piece.first_corner + next];
-          if (from == to) broken("a piece of boundary with two equal corners");
-          if (piece.corner_sense != piece.plane.sense) std::swap(from, to);
-          edges_.push_back(
-              {piece.plane, buffer.corners[piece.first_corner + i].side_plane, from, to, number});
+        const auto corners =
+            std::span(buffer.corners).subspan(piece.first_corner, piece.corner_count);
+        const auto numbers =
+            std::span(interned.number).subspan(base + piece.first_corner, piece.corner_count);
+        if (settled_.is_settled(piece)) {
+          add_settled_face(piece, number, corners, numbers);
+        } else {
+          for (std::uint32_t i = 0; i < piece.corner_count; ++i) {
+            add_edge(piece, number, corners, numbers, i);
+          }
         }
         polytope_of_piece_.push_back(polytope_of(piece));
         ++number;
@@ -139,6 +163,43 @@ class Merger {
       base += buffer.corners.size();
     }
     statistics_pieces_ = number;
+  }
+
+  // The edge from corner i to the next.
+  void add_edge(const BoundaryPiece& piece, PieceNumber number, std::span<const Corner> corners,
+                std::span<const VertexNumber> numbers, std::size_t i) {
+    VertexNumber from = numbers[i];
+    VertexNumber to = numbers[i + 1 == numbers.size() ? 0 : i + 1];
+    if (from == to) broken("a piece of boundary with two equal corners");
+    if (piece.corner_sense != piece.plane.sense) std::swap(from, to);
+    edges_.push_back({piece.plane, corners[i].side_plane, from, to, number});
+  }
+
+  void add_settled_face(const BoundaryPiece& piece, PieceNumber number,
+                        std::span<const Corner> corners, std::span<const VertexNumber> numbers) {
+    SettledFace face{piece.plane, number, true, {numbers.begin(), numbers.end()}, {}};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const bool settled = settled_.is_settled(corners[i].side_plane);
+      face.has_settled_side.push_back(settled);
+      if (!settled) {
+        face.has_settled_sides_only = false;
+        add_edge(piece, number, corners, numbers, i);
+        continue;
+      }
+      const VertexNumber from = numbers[i];
+      const VertexNumber to = numbers[i + 1 == numbers.size() ? 0 : i + 1];
+      if (from == to) broken("a piece of boundary with two equal corners");
+      // The facet on the other side walks it from `to` to `from`.
+      if (from > to) continue;
+      const auto [first, second] = std::minmax(piece.plane.plane, corners[i].side_plane);
+      settled_edges_.push_back({first, second, from, to, scene_.facets[piece.facet].primitive});
+    }
+    if (piece.corner_sense != piece.plane.sense) {
+      // Corners and the sides between them, backwards from the same corner.
+      std::reverse(face.loop.begin() + 1, face.loop.end());
+      std::reverse(face.has_settled_side.begin(), face.has_settled_side.end());
+    }
+    settled_faces_.push_back(std::move(face));
   }
 
   // The convex primitive of which the piece is a whole facet, or none.
@@ -352,6 +413,9 @@ class Merger {
         }
       }
     }
+    // The facets on both sides have edges of other directions there.
+    for (const SettledEdge& edge : settled_edges_)
+      is_vertex_[edge.from] = is_vertex_[edge.to] = true;
     for (LineNumber line = 0; line < content_.size(); ++line) collect_stations(line);
   }
 
@@ -364,7 +428,7 @@ class Merger {
   }
 
   struct Span {
-    LineNumber line;
+    LineNumber line;  // lines_.size() + i: the settled edge i
     VertexNumber from;
     VertexNumber to;
     std::uint32_t polytope;  // the convex primitive of one of whose edges it is a part, or none
@@ -389,7 +453,22 @@ class Merger {
       };
       result.erase(std::unique(result.begin() + first, result.end(), same_ends), result.end());
     }
+    for (std::size_t i = 0; i < settled_edges_.size(); ++i) {
+      const SettledEdge& edge = settled_edges_[i];
+      result.push_back({static_cast<LineNumber>(lines_.size() + i), edge.from, edge.to,
+                        scene_.primitives[edge.primitive].convex ? edge.primitive : none});
+    }
     return result;
+  }
+
+  bool is_settled(const Span& span) const { return span.line >= lines_.size(); }
+  const SettledEdge& settled_edge(const Span& span) const {
+    return settled_edges_[span.line - lines_.size()];
+  }
+
+  std::array<PlaneRef, 2> planes_of(const Span& span) const {
+    if (is_settled(span)) return {settled_edge(span).first, settled_edge(span).second};
+    return {lines_[span.line].first, lines_[span.line].second};
   }
 
   // Segments of one oriented plane, joined where they continue one another and cut at vertices.
@@ -476,14 +555,36 @@ class Merger {
         group_begins.push_back(i);
       }
     }
-    std::vector<LineNumber> changed;
     GroupedBoxes(boxes, group_begins).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-      touch(all[i], all[j], changed);
+      touch(all[i], all[j]);
     });
-    if (changed.empty()) return;
-    std::sort(changed.begin(), changed.end());
-    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-    for (const LineNumber line : changed) sort_along(line, content_[line].stations);
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    for (const LineNumber line : changed_) sort_along(line, content_[line].stations);
+    for (auto& [edge, cuts] : cuts_) sort_from(edge[0], edge[1], cuts);
+  }
+
+  // Points between two others, each once, in the order in which one goes from the first to the
+  // last.
+  void sort_from(VertexNumber first, VertexNumber last, std::vector<VertexNumber>& between) {
+    std::sort(between.begin(), between.end());
+    between.erase(std::unique(between.begin(), between.end()), between.end());
+    const bool ascending =
+        geometry_.compare_position(vertices_[first], vertices_[last], statistics_) < 0;
+    std::sort(between.begin(), between.end(), [&](VertexNumber a, VertexNumber b) {
+      if (!ascending) std::swap(a, b);
+      return geometry_.compare_position(vertices_[a], vertices_[b], statistics_) < 0;
+    });
+  }
+
+  // States that a vertex lies on a span.
+  void add_station(const Span& span, VertexNumber vertex) {
+    if (!is_settled(span)) {
+      content_[span.line].stations.push_back(vertex);
+      changed_.push_back(span.line);
+    } else if (vertex != span.from && vertex != span.to) {
+      cuts_[{span.from, span.to}].push_back(vertex);
+    }
   }
 
   // The sides of a span's ends with respect to a plane.
@@ -492,14 +593,40 @@ class Merger {
             geometry_.side(vertices_[span.to], plane, statistics_)};
   }
 
-  void touch(const Span& a, const Span& b, std::vector<LineNumber>& changed) {
+  // Spans of one line have one number, but for settled edges of different primitives.
+  bool may_be_collinear(const Span& a, const Span& b) const {
+    if (is_settled(a) && is_settled(b)) {
+      return settled_edge(a).primitive != settled_edge(b).primitive;
+    }
+    return is_settled(a) || is_settled(b);
+  }
+
+  bool collinear(const Span& a, const Span& b) {
+    const std::array<PlaneRef, 2> planes = planes_of(b);
+    return std::all_of(planes.begin(), planes.end(), [&](PlaneRef plane) {
+      return sides(a, plane) == std::array{Sign::Zero, Sign::Zero};
+    });
+  }
+
+  // The ends of either that lie on the other. REQUIRES both are of one line.
+  void overlap(const Span& a, const Span& b) {
+    for (const VertexNumber end : {a.from, a.to}) {
+      if (end != b.from && end != b.to && within(vertices_[end], b)) add_station(b, end);
+    }
+    for (const VertexNumber end : {b.from, b.to}) {
+      if (end != a.from && end != a.to && within(vertices_[end], a)) add_station(a, end);
+    }
+  }
+
+  void touch(const Span& a, const Span& b) {
     if (a.line == b.line) return;
+    if (may_be_collinear(a, b) && collinear(a, b)) return overlap(a, b);
     if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) return;
-    const LineSample& line_a = lines_[a.line];
-    const LineSample& line_b = lines_[b.line];
+    const std::array<PlaneRef, 2> planes_a = planes_of(a);
+    const std::array<PlaneRef, 2> planes_b = planes_of(b);
     std::optional<PlaneRef> crossing;
     std::array<Sign, 2> crossing_sides{};
-    for (const PlaneRef plane : {line_b.first, line_b.second}) {
+    for (const PlaneRef plane : planes_b) {
       const auto side = sides(a, plane);
       if (side[0] == side[1]) {
         if (side[0] != Sign::Zero) return;
@@ -509,7 +636,7 @@ class Merger {
       crossing_sides = side;
     }
     if (!crossing) return;
-    for (const PlaneRef plane : {line_a.first, line_a.second}) {
+    for (const PlaneRef plane : planes_a) {
       const auto side = sides(b, plane);
       if (side[0] == side[1] && side[0] != Sign::Zero) return;
     }
@@ -524,9 +651,9 @@ class Merger {
       number = a.to;
       point = vertices_[number];
     } else {
-      point = geometry_.meet(line_a.first, line_a.second, *crossing);
+      point = geometry_.meet(planes_a[0], planes_a[1], *crossing);
     }
-    const PlaneRef other = *crossing == line_b.first ? line_b.second : line_b.first;
+    const PlaneRef other = *crossing == planes_b[0] ? planes_b[1] : planes_b[0];
     if (geometry_.side(point, other, statistics_) != Sign::Zero) return;
     if (!within(point, b)) return;
     for (const VertexNumber end : {b.from, b.to}) {
@@ -536,10 +663,8 @@ class Merger {
     }
     if (number == none) number = known_touching_point(point);
     if (!is_vertex_[number]) is_vertex_[number] = true;
-    for (const LineNumber line : {a.line, b.line}) {
-      content_[line].stations.push_back(number);
-      changed.push_back(line);
-    }
+    add_station(a, number);
+    add_station(b, number);
   }
 
   // Points of the line only; both ends included.
@@ -581,6 +706,52 @@ class Merger {
     return number;
   }
 
+  // A settled edge as one walks it from one end to the other, which is left out.
+  template <class Visit>
+  void for_each_part(VertexNumber from, VertexNumber to, Visit visit) const {
+    const auto cut =
+        cuts_.empty() ? cuts_.end() : cuts_.find({std::min(from, to), std::max(from, to)});
+    VertexNumber last = from;
+    const auto go_to = [&](VertexNumber next) {
+      visit(last, next);
+      last = next;
+    };
+    if (cut != cuts_.end()) {
+      if (from < to) {
+        std::for_each(cut->second.begin(), cut->second.end(), go_to);
+      } else {
+        std::for_each(cut->second.rbegin(), cut->second.rend(), go_to);
+      }
+    }
+    go_to(to);
+  }
+
+  // The loops of settled faces; those with sides that are not settled are left to `edges`.
+  std::vector<SingleFace> single_faces(std::vector<FaceEdge>& edges) {
+    std::vector<SingleFace> result;
+    result.reserve(settled_faces_.size());
+    for (SettledFace& face : settled_faces_) {
+      const auto for_each_settled_part = [&](const auto& visit) {
+        for (std::size_t i = 0; i < face.loop.size(); ++i) {
+          if (!face.has_settled_side[i]) continue;
+          for_each_part(face.loop[i], face.loop[i + 1 == face.loop.size() ? 0 : i + 1], visit);
+        }
+      };
+      if (!face.has_settled_sides_only) {
+        for_each_settled_part([&](VertexNumber from, VertexNumber to) {
+          edges.push_back({face.plane, face.piece, from, to});
+        });
+      } else if (cuts_.empty()) {
+        result.push_back({face.plane, std::move(face.loop)});
+      } else {
+        std::vector<VertexNumber> loop;
+        for_each_settled_part([&](VertexNumber from, VertexNumber) { loop.push_back(from); });
+        result.push_back({face.plane, std::move(loop)});
+      }
+    }
+    return result;
+  }
+
   Boundary assemble() {
     std::vector<FaceEdge> edges;
     for (LineNumber line = 0; line < content_.size(); ++line) {
@@ -588,27 +759,38 @@ class Merger {
         edges.push_back({run.owner.plane, faces_.find(run.owner.piece), run.from, run.to});
       });
     }
+    const std::size_t count_on_lines = edges.size();
+    std::vector<SingleFace> singles = single_faces(edges);
     const std::vector<VertexNumber> used = sorted_vertices();
     std::vector<VertexNumber> renumbered(vertices_.size(), none);
     for (std::size_t i = 0; i < used.size(); ++i) {
       renumbered[used[i]] = static_cast<VertexNumber>(i);
     }
     Boundary boundary;
-    boundary.edges.reserve(edges.size());
+    boundary.edges.reserve(count_on_lines + settled_edges_.size());
     set_positions(used, boundary);
     check();
+    const auto add_edge_between = [&](VertexNumber from, VertexNumber to) {
+      const auto [low, high] = std::minmax(renumbered[from], renumbered[to]);
+      boundary.edges.push_back({low, high});
+    };
+    for (std::size_t i = 0; i < count_on_lines; ++i) add_edge_between(edges[i].from, edges[i].to);
+    for (const SettledEdge& edge : settled_edges_) {
+      for_each_part(edge.from, edge.to, add_edge_between);
+    }
     for (FaceEdge& edge : edges) {
       edge.from = renumbered[edge.from];
       edge.to = renumbered[edge.to];
-      const auto [low, high] = std::minmax(edge.from, edge.to);
-      boundary.edges.push_back({low, high});
+    }
+    for (SingleFace& face : singles) {
+      for (VertexNumber& vertex : face.loop) vertex = renumbered[vertex];
     }
     sort_in_buckets(
         boundary.edges, used.size(), [](const BoundaryEdge& edge) { return edge.from; },
         std::less<>());
     boundary.edges.erase(std::unique(boundary.edges.begin(), boundary.edges.end()),
                          boundary.edges.end());
-    link_faces(geometry_, std::move(edges), threads_, boundary);
+    link_faces(geometry_, std::move(edges), std::move(singles), threads_, boundary);
     boundary.statistics.pieces = statistics_pieces_;
     boundary.statistics.tiers = statistics_;
     return boundary;
@@ -665,7 +847,12 @@ class Merger {
   Progress* progress_;
   TierStatistics statistics_;
   std::uint64_t statistics_pieces_ = 0;
+  const SettledFacets settled_;
   std::vector<PieceEdge> edges_;
+  std::vector<SettledEdge> settled_edges_;
+  std::vector<SettledFace> settled_faces_;
+  std::map<std::array<VertexNumber, 2>, std::vector<VertexNumber>> cuts_;  // of settled edges
+  std::vector<LineNumber> changed_;  // lines on which other edges were found to touch
   std::vector<std::uint32_t> polytope_of_piece_;
   std::vector<Vertex> vertices_;
   DisjointSets faces_;

@@ -118,8 +118,8 @@ class LoopLinker {
 
 }  // namespace
 
-void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, unsigned threads,
-                Boundary& boundary) {
+void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges,
+                std::vector<SingleFace> singles, unsigned threads, Boundary& boundary) {
   // No face lies in a wall.
   sort_in_buckets(
       edges, geometry.plane_count(),
@@ -131,6 +131,8 @@ void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, unsigned 
   for (const FaceEdge& edge : edges) {
     if (oriented.empty() || oriented.back() != edge.plane) oriented.push_back(edge.plane);
   }
+  const std::size_t planes_of_edges = oriented.size();
+  for (const SingleFace& face : singles) oriented.push_back(face.plane);
   std::vector<Plane> planes(oriented.size());
   in_parallel(threads, oriented.size(), [&](std::size_t i) {
     planes[i] = geometry.exact_plane_once(oriented[i].plane);
@@ -152,6 +154,11 @@ void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, unsigned 
             .link();
     faces.push_back(std::move(face));
     begin = end;
+  }
+  for (std::size_t i = 0; i < singles.size(); ++i) {
+    start_at_smallest(singles[i].loop);
+    faces.push_back({static_cast<std::uint32_t>(planes_of_edges + i), {}});
+    faces.back().loops.push_back(std::move(singles[i].loop));
   }
   std::vector<std::uint32_t> order(planes.size());
   std::iota(order.begin(), order.end(), 0U);

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/settled_facets.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace exactcsg {
+
+namespace {
+
+// No two sides in succession lie on one line. Those of a triangle do not; those of a facet of a
+// convex polytope do only if one facet lies across both.
+bool turns_at_every_corner(const Scene& scene, const SceneFacet& facet) {
+  const auto corners = std::span(scene.corners).subspan(facet.first_corner, facet.corner_count);
+  if (std::any_of(corners.begin(), corners.end(),
+                  [](const Corner& corner) { return !corner.vertex.is_point; })) {
+    return false;  // of a half-space
+  }
+  if (corners.size() == 3) return true;
+  if (!scene.primitives[facet.primitive].convex) return false;
+  const auto same_side_plane = [](const Corner& a, const Corner& b) {
+    return a.side_plane == b.side_plane;
+  };
+  return std::adjacent_find(corners.begin(), corners.end(), same_side_plane) == corners.end() &&
+         corners.front().side_plane != corners.back().side_plane;
+}
+
+}  // namespace
+
+SettledFacets::SettledFacets(const Scene& scene, const std::vector<bool>& whole)
+    : planes_(scene.geometry.plane_count(), false) {
+  std::vector<std::uint32_t> facets_in_plane(planes_.size(), 0);
+  for (const SceneFacet& facet : scene.facets) ++facets_in_plane[facet.plane.plane.table_index()];
+  for (std::size_t f = 0; f < scene.facets.size(); ++f) {
+    const SceneFacet& facet = scene.facets[f];
+    const std::uint32_t plane = facet.plane.plane.table_index();
+    if (whole[f] && facets_in_plane[plane] == 1 && turns_at_every_corner(scene, facet)) {
+      planes_[plane] = true;
+    }
+  }
+}
+
+SettledFacets settled_facets(const Scene& scene, const std::vector<PieceBuffer>& buffers) {
+  std::vector<bool> whole(scene.facets.size(), false);
+  for (const PieceBuffer& buffer : buffers) {
+    for (const BoundaryPiece& piece : buffer.pieces) {
+      if (piece.share == facet_share::whole) whole[piece.facet] = true;
+    }
+  }
+  return SettledFacets(scene, whole);
+}
+
+}  // namespace exactcsg

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Facets that need no merging: most of a model's boundary is facets of which nothing was cut off,
+// each alone in its plane. [Exact]
+//
+// A facet is settled if it came out as boundary whole, lies in the plane of no other facet of the
+// scene (in either sense), and surely turns at every corner. No other piece of boundary lies in its
+// plane: its sides bound a face as they are, and between two settled facets a side is an edge, but
+// for vertices of other edges that touch it.
+
+#include <cstdint>
+#include <vector>
+
+#include "exactcsg/solid/cell_evaluation.hpp"
+#include "exactcsg/solid/scene.hpp"
+
+namespace exactcsg {
+
+class SettledFacets {
+ public:
+  // whole: by facet. Only facets of which it says so are settled.
+  SettledFacets(const Scene& scene, const std::vector<bool>& whole);
+
+  bool is_settled(const BoundaryPiece& piece) const { return is_settled(piece.plane.plane); }
+  // Whether the plane is that of a settled facet.
+  bool is_settled(PlaneRef plane) const { return !plane.is_wall() && planes_[plane.table_index()]; }
+
+ private:
+  std::vector<bool> planes_;  // by table index
+};
+
+// REQUIRES whole facets were restored: a piece is a whole facet of the scene iff its share says so.
+// COST: O(facets of the scene + pieces).
+SettledFacets settled_facets(const Scene& scene, const std::vector<PieceBuffer>& buffers);
+
+}  // namespace exactcsg
