@@ -52,15 +52,8 @@ long peak_kilobytes() {
   return usage.ru_maxrss;
 }
 
-PointClass membership(const Planar& solid, const PlanarPoint& point) {
-  return csg::traverse(
-      solid, [&](const PlanarHalfSpace& h) { return classify(h, point); },
-      [](PointClass a, csg::BooleanOperator op, PointClass b) { return combine(a, op, b); },
-      csg::FullEmptyResult{PointClass::In, PointClass::Out});
-}
-
 void membership_experiment(std::size_t count) {
-  std::string text = text_of(squares(count));
+  const std::string text = text_of(squares(count));
   Planar solid;
   const double input = seconds_of([&] { solid = tree_of(text); }, count > 1'000'000 ? 1 : 5);
   if (solid.primitive_count() != count) wrong("number of half-planes");
@@ -76,19 +69,6 @@ void membership_experiment(std::size_t count) {
       "\"peak_kilobytes\": {}}}\n",
       count, text.size(), input, computation, peak_kilobytes());
 }
-
-double area_of_leaf(const Local& local) {
-  if (local.solid.is_empty()) return 0;
-  const PlanarPoint middle{(local.cell.lower[0] + local.cell.upper[0]) / 2,
-                           (local.cell.lower[1] + local.cell.upper[1]) / 2};
-  return membership(local.solid, middle) == PointClass::Out ? 0 : size_of(local.cell);
-}
-
-std::array<Local, 4> quadrants(const Local& local) {
-  return {localised(local, 0), localised(local, 1), localised(local, 2), localised(local, 3)};
-}
-
-double sum(std::span<double> parts) { return parts[0] + parts[1] + parts[2] + parts[3]; }
 
 void area_experiment() {
   const Local root{{{0, 0}, {1, 1}}, plate()};

@@ -7,7 +7,7 @@
 // By hand means: no function is a parameter, no type either, and nothing is there for cases that do
 // not occur. What both use is the tree, and csg::prune for the areas.
 
-#include <cstring>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "bench/gel/planar_model.hpp"
-#include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/gdt/create.hpp"
 #include "exactcsg/gdt/traverse.hpp"
 #include "exactcsg/skeleton/divacon.hpp"
@@ -25,27 +24,8 @@ namespace exactcsg::bench {
 constexpr int deepest = 9;
 const PlanarCell unit_square{{0, 0}, {1, 1}};
 
-double area_of_leaf(const Local& local) {
-  if (local.solid.is_empty()) return 0;
-  if (local.solid.is_full()) return size_of(local.cell);
-  const PlanarPoint middle{(local.cell.lower[0] + local.cell.upper[0]) / 2,
-                           (local.cell.lower[1] + local.cell.upper[1]) / 2};
-  const PointClass at_middle = csg::traverse(
-      local.solid, [&](const PlanarHalfSpace& h) { return classify(h, middle); },
-      [](PointClass a, csg::BooleanOperator op, PointClass b) { return combine(a, op, b); },
-      csg::FullEmptyResult{PointClass::In, PointClass::Out});
-  return at_middle == PointClass::Out ? 0 : size_of(local.cell);
-}
-
-std::array<Local, 4> quadrants(const Local& local) {
-  return {localised(local, 0), localised(local, 1), localised(local, 2), localised(local, 3)};
-}
-
 [[gnu::noinline]] PointClass generic_membership(const Planar& solid, const PlanarPoint& point) {
-  return csg::traverse(
-      solid, [&](const PlanarHalfSpace& h) { return classify(h, point); },
-      [](PointClass a, csg::BooleanOperator op, PointClass b) { return combine(a, op, b); },
-      csg::FullEmptyResult{PointClass::In, PointClass::Out});
+  return membership(solid, point);
 }
 
 [[gnu::noinline]] PointClass handwritten_membership(const Planar& solid, const PlanarPoint& point) {
@@ -89,8 +69,7 @@ std::array<Local, 4> quadrants(const Local& local) {
   return skeleton::divacon(
       Local{unit_square, solid},
       [](const Local& local) { return local.depth == deepest || is_decided(local); }, quadrants,
-      [](const Local& local) { return area_of_leaf(local); },
-      [](std::span<double> parts) { return parts[0] + parts[1] + parts[2] + parts[3]; });
+      area_of_leaf, sum);
 }
 
 // A sum needs no stack of results: they are added up as they come.
@@ -112,15 +91,11 @@ std::array<Local, 4> quadrants(const Local& local) {
 using AreaTree = gdt::Tree<double>;
 
 AreaTree area_tree(const Planar& solid) {
-  return gdt::create(
-      Local{unit_square, solid}, is_decided, quadrants,
-      [](const Local& local) { return area_of_leaf(local); }, deepest);
+  return gdt::create(Local{unit_square, solid}, is_decided, quadrants, area_of_leaf, deepest);
 }
 
 [[gnu::noinline]] double generic_sum(const AreaTree& tree) {
-  return gdt::traverse(
-      tree, [](double area) { return area; },
-      [](std::span<double> parts) { return parts[0] + parts[1] + parts[2] + parts[3]; });
+  return gdt::traverse(tree, std::identity(), sum);
 }
 
 // Keeps the results of each node's children apart, as a combine that is not a sum would need it.

@@ -8,12 +8,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "exactcsg/csg/prune.hpp"
 #include "exactcsg/csg/text.hpp"
+#include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/csg/tree.hpp"
 #include "exactcsg/domain/point_class.hpp"
 #include "exactcsg/gdt/cell.hpp"
@@ -46,6 +48,13 @@ inline PointClass classify(const PlanarHalfSpace& h, const PlanarPoint& p) {
 inline PointClass combine(PointClass a, csg::BooleanOperator op, PointClass b) {
   if (op == csg::BooleanOperator::Difference) b = complement(b);
   return op == csg::BooleanOperator::Union ? std::max(a, b) : std::min(a, b);
+}
+
+inline PointClass membership(const Planar& solid, const PlanarPoint& point) {
+  return csg::traverse(
+      solid, [&](const PlanarHalfSpace& h) { return classify(h, point); },
+      [](PointClass a, csg::BooleanOperator op, PointClass b) { return combine(a, op, b); },
+      csg::FullEmptyResult{PointClass::In, PointClass::Out});
 }
 
 // The extreme values of the polynomial over a cell: it is a sum of one function of x and one of y.
@@ -162,8 +171,26 @@ inline Local localised(const Local& local, std::size_t quadrant) {
           local.depth + 1};
 }
 
+inline std::array<Local, 4> quadrants(const Local& local) {
+  return {localised(local, 0), localised(local, 1), localised(local, 2), localised(local, 3)};
+}
+
 inline double size_of(const PlanarCell& cell) {
   return (cell.upper[0] - cell.lower[0]) * (cell.upper[1] - cell.lower[1]);
 }
+
+// A cell that is not decided counts as its middle.
+inline double area_of_leaf(const Local& local) {
+  if (local.solid.is_empty()) return 0;
+  if (local.solid.is_full()) return size_of(local.cell);
+  const PlanarPoint middle{(local.cell.lower[0] + local.cell.upper[0]) / 2,
+                           (local.cell.lower[1] + local.cell.upper[1]) / 2};
+  return membership(local.solid, middle) == PointClass::Out ? 0 : size_of(local.cell);
+}
+
+// An object and no function: a pointer to a function would not be inlined.
+inline constexpr auto sum = [](std::span<const double> parts) {
+  return parts[0] + parts[1] + parts[2] + parts[3];
+};
 
 }  // namespace exactcsg::bench
