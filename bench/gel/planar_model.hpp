@@ -52,7 +52,7 @@ inline PointClass combine(PointClass a, csg::BooleanOperator op, PointClass b) {
 
 inline PointClass membership(const Planar& solid, const PlanarPoint& point) {
   return csg::traverse(
-      solid, [&](const PlanarHalfSpace& h) { return classify(h, point); },
+      solid, [point](const PlanarHalfSpace& h) { return classify(h, point); },
       [](PointClass a, csg::BooleanOperator op, PointClass b) { return combine(a, op, b); },
       csg::FullEmptyResult{PointClass::In, PointClass::Out});
 }
@@ -179,16 +179,17 @@ inline double size_of(const PlanarCell& cell) {
   return (cell.upper[0] - cell.lower[0]) * (cell.upper[1] - cell.lower[1]);
 }
 
+// What follows is given to the operators as objects: a pointer to a function would not be inlined.
+
 // A cell that is not decided counts as its middle.
-inline double area_of_leaf(const Local& local) {
+inline constexpr auto area_of_leaf = [](const Local& local) -> double {
   if (local.solid.is_empty()) return 0;
   if (local.solid.is_full()) return size_of(local.cell);
   const PlanarPoint middle{(local.cell.lower[0] + local.cell.upper[0]) / 2,
                            (local.cell.lower[1] + local.cell.upper[1]) / 2};
   return membership(local.solid, middle) == PointClass::Out ? 0 : size_of(local.cell);
-}
+};
 
-// An object and no function: a pointer to a function would not be inlined.
 inline constexpr auto sum = [](std::span<const double> parts) {
   return parts[0] + parts[1] + parts[2] + parts[3];
 };

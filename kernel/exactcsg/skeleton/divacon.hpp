@@ -140,6 +140,11 @@ void hand_out(Parts&& parts, Receive& receive) {
   // A range handed over by value is ours to move from; a view of somebody's elements is not.
   constexpr bool ours =
       !std::is_lvalue_reference_v<Parts> && !std::ranges::view<std::remove_cvref_t<Parts>>;
+  if constexpr (ours && requires { receive.all(parts); }) {
+    if constexpr (std::same_as<std::ranges::range_reference_t<Parts>, D&>) {
+      return receive.all(parts);
+    }
+  }
   for (auto&& part : parts) {
     if constexpr (ours && std::same_as<decltype(part), D&>) {
       receive(std::move(part));
@@ -159,6 +164,7 @@ struct Combiner {
   static constexpr bool keeps_data =
       !CombinesResults<Combine, R> || StopsByResultAndData<Combine, R, D>;
 
+  R combine(std::span<R> results) requires(!keeps_data) { return std::invoke(combine_, results); }
   R combine(std::span<R> results, D&& problem) {
     if constexpr (CombinesResults<Combine, R>) {
       return std::invoke(combine_, results);
@@ -169,6 +175,9 @@ struct Combiner {
     }
   }
 
+  bool enough(const R& result) requires StopsByResult<Combine, R> {
+    return static_cast<bool>(combine_.enough(result));
+  }
   bool enough(const R& result, const D&) requires(StopsByResult<Combine, R> &&
                                                   !StopsByResultAndData<Combine, R, D>) {
     return static_cast<bool>(combine_.enough(result));

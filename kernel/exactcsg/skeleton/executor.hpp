@@ -38,8 +38,8 @@
 #include <cstddef>
 #include <exception>
 #include <iterator>
-#include <limits>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -100,7 +100,14 @@ struct NeverInterrupted {
   void operator()() const noexcept {}
 };
 
-// An explicit stack of what is still to do, and one of the results not yet combined.
+// False if neither combine nor enough looks at the problem; they can then be called without it.
+template <class A>
+constexpr bool keeps_data = true;
+template <class A>
+requires requires { A::keeps_data; }
+constexpr bool keeps_data<A> = A::keeps_data;
+
+// An explicit stack of the problems not yet solved, and one of the results not yet combined.
 template <DivideAndConquer A, class Interrupt>
 class SequentialRun {
  public:
@@ -111,74 +118,107 @@ class SequentialRun {
       : algorithm_(algorithm), interrupt_(interrupt) {}
 
   Result operator()(Problem root) {
-    pending_.emplace_back(std::move(root));
-    while (!pending_.empty()) {
+    pending_.push_back(std::move(root));
+    divided_.push_back({1, 0});  // of which the root is the only subproblem
+    while (true) {
       interrupt_();
-      if (pending_.back().first_result == not_expanded) {
+      if (divided_.back().unsolved != 0) {
         expand_last();
-      } else {
+      } else if (divided_.size() > 1) {
         combine_last();
+      } else {
+        return std::move(results_.back());
       }
     }
-    return std::move(results_.back());
   }
 
  private:
-  static constexpr std::size_t not_expanded = std::numeric_limits<std::size_t>::max();
-
-  // A problem stays where it is until its result is there: it is moved in once, and lent.
-  struct Pending {
-    explicit Pending(Problem&& given) : problem(std::move(given)) {}
-    Problem problem;
-    std::size_t first_result = not_expanded;  // of those of its subproblems
+  // A divided problem. The subproblems without a result are the last of pending_, the first of them
+  // on top; below them is the problem itself if it is kept.
+  struct Divided {
+    std::size_t unsolved;
+    std::size_t first_result;
   };
 
-  void combine_last() {
-    Pending& last = pending_.back();
-    const auto first = results_.begin() + static_cast<std::ptrdiff_t>(last.first_result);
-    auto result = algorithm_.combine(
-        std::span(results_.data() + last.first_result, results_.size() - last.first_result),
-        std::move(last.problem));
-    results_.erase(first, results_.end());
-    pending_.pop_back();
-    if constexpr (StopsEarly<A>) joins_.pop_back();
-    receive_result(std::move(result));
-  }
+  // What expand gives the subproblems to: one after the other, or all in a range that is ours to
+  // move from. The latter is the last that expand does, so that no place of their own is needed.
+  struct Receiver {
+    SequentialRun& run;
+    bool has_all = false;
 
+    void operator()(Problem&& part) { run.parts_.push_back(std::move(part)); }
+    template <std::ranges::bidirectional_range Parts>
+    requires std::ranges::common_range<Parts>
+    void all(Parts& parts) {
+      run.divide_last_into(parts);
+      has_all = true;
+    }
+  };
+
+  // A problem stays where it is until it is solved or divided: it is moved in once, and lent.
   void expand_last() {
-    parts_.clear();
-    if (auto solved = expand(algorithm_, pending_.back().problem,
-                             [this](Problem&& part) { parts_.push_back(std::move(part)); })) {
+    Receiver receiver{*this};
+    if (auto solved = expand(algorithm_, pending_.back(), receiver)) {
       pending_.pop_back();
       return receive_result(std::move(*solved));
     }
-    if constexpr (StopsEarly<A>) joins_.push_back(pending_.size() - 1);
-    pending_.back().first_result = results_.size();
-    // What combine does not ask for need not wait for it.
-    if constexpr (requires { requires !A::keeps_data; }) {
-      [[maybe_unused]] const Problem released = std::move(pending_.back().problem);
+    if (receiver.has_all) return;
+    divide_last_into(parts_);
+    parts_.clear();
+  }
+
+  template <class Parts>
+  void divide_last_into(Parts& parts) {
+    if constexpr (!keeps_data<A>) pending_.pop_back();
+    const std::size_t before = pending_.size();
+    for (auto part = std::ranges::end(parts); part != std::ranges::begin(parts);) {
+      pending_.push_back(std::move(*--part));
     }
-    for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) {
-      pending_.emplace_back(std::move(*part));
-    }
+    divided_.push_back({pending_.size() - before, results_.size()});
+  }
+
+  void combine_last() {
+    const std::size_t first = divided_.back().first_result;
+    const std::span<Result> results(results_.data() + first, results_.size() - first);
+    auto result = [&] {
+      if constexpr (keeps_data<A>) {
+        return algorithm_.combine(results, std::move(pending_.back()));
+      } else {
+        return algorithm_.combine(results);
+      }
+    }();
+    if constexpr (keeps_data<A>) pending_.pop_back();
+    divided_.pop_back();
+    results_.erase(results_.begin() + static_cast<std::ptrdiff_t>(first), results_.end());
+    receive_result(std::move(result));
   }
 
   void receive_result(Result&& result) {
+    std::size_t& unsolved = divided_.back().unsolved;
+    --unsolved;
     if constexpr (StopsEarly<A>) {
-      if (!joins_.empty()) {
-        const auto join = pending_.begin() + static_cast<std::ptrdiff_t>(joins_.back());
-        if (algorithm_.enough(std::as_const(result), std::as_const(join->problem))) {
-          pending_.erase(join + 1, pending_.end());
-        }
+      if (divided_.size() > 1 && is_enough(result)) {
+        pending_.erase(pending_.end() - static_cast<std::ptrdiff_t>(unsolved), pending_.end());
+        unsolved = 0;
       }
     }
     results_.push_back(std::move(result));
   }
 
+  bool is_enough(const Result& result) requires StopsEarly<A> {
+    if constexpr (keeps_data<A>) {
+      const Problem& parent =
+          *(pending_.end() - static_cast<std::ptrdiff_t>(divided_.back().unsolved) - 1);
+      return algorithm_.enough(result, parent);
+    } else {
+      return algorithm_.enough(result);
+    }
+  }
+
   A& algorithm_;
   Interrupt& interrupt_;
-  std::vector<Pending> pending_;
-  std::vector<std::size_t> joins_;  // where they are in pending_, if the algorithm stops early
+  std::vector<Problem> pending_;
+  std::vector<Divided> divided_;
   Array<Result> results_;
   std::vector<Problem> parts_;
 };
