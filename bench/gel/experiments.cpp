@@ -3,6 +3,9 @@
 //   gel_experiments membership N     reading a tree of N half-planes and classifying a point
 //   gel_experiments area             the area of the plate, on the fly and by a tree, to depth 13
 //   gel_experiments points           a million points: by the tree, by a decomposition, by CGAL
+//   gel_experiments alone TASK S     TASK (area or points) on one thread, over and over for S
+//   seconds:
+//                                    two such processes at once show what the machine has to give
 // Every answer is checked before it is timed; bench/gel_experiments makes tables of the lines.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -14,9 +17,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
+#include <optional>
 #include <random>
+#include <span>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "bench/gel/planar_model.hpp"
@@ -24,6 +30,7 @@
 #include "exactcsg/gdt/create.hpp"
 #include "exactcsg/gdt/traverse.hpp"
 #include "exactcsg/skeleton/divacon.hpp"
+#include "exactcsg/skeleton/simulated_executor.hpp"
 
 namespace exactcsg::bench {
 namespace {
@@ -44,6 +51,32 @@ double seconds_of(Work work, int runs = 5) {
     best = std::min(best, elapsed.count());
   }
   return best;
+}
+
+struct OneAndTwo {
+  double one;
+  double two;
+};
+
+// The same of two ways to do something, taken by turns: what else the machine does meets both.
+template <class One, class Two>
+OneAndTwo seconds_by_turns(One one, Two two, int runs) {
+  OneAndTwo best{1e300, 1e300};
+  for (int i = 0; i < runs; ++i) {
+    best.one = std::min(best.one, seconds_of(one, 1));
+    best.two = std::min(best.two, seconds_of(two, 1));
+  }
+  return best;
+}
+
+// The median: while another process does the same, but for the beginning and the end.
+template <class Work>
+void repeat(Work work, double seconds) {
+  std::vector<double> runs;
+  for (double all = 0; all < seconds; all += runs.back()) runs.push_back(seconds_of(work, 1));
+  const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
+  std::nth_element(runs.begin(), middle, runs.end());
+  fmt::print("{{\"seconds\": {}}}\n", *middle);
 }
 
 long peak_kilobytes() {
@@ -70,18 +103,31 @@ void membership_experiment(std::size_t count) {
       count, text.size(), input, computation, peak_kilobytes());
 }
 
+constexpr int deepest = 13;
+
+Local whole_plate() { return {{{0, 0}, {1, 1}}, plate()}; }
+
+template <class E>
+double area_on_the_fly(const Local& root, int depth, const E& executor) {
+  return skeleton::divacon(
+      root, [&](const Local& local) { return local.depth == depth || is_decided(local); },
+      quadrants, area_of_leaf, sum, executor);
+}
+
+// Of the tasks of a run, what p workers would make.
+double simulated_speed_up(const Local& root, int depth, std::size_t workers) {
+  skeleton::TaskGraph graph;
+  area_on_the_fly(root, depth, skeleton::SimulatedExecutor(graph));
+  return skeleton::schedule(graph, workers).speed_up();
+}
+
 void area_experiment() {
-  const Local root{{{0, 0}, {1, 1}}, plate()};
-  for (int depth = 2; depth <= 13; ++depth) {
-    const auto on_the_fly = [&](const auto& executor) {
-      return skeleton::divacon(
-          root, [&](const Local& local) { return local.depth == depth || is_decided(local); },
-          quadrants, area_of_leaf, sum, executor);
-    };
+  const Local root = whole_plate();
+  for (int depth = 2; depth <= deepest; ++depth) {
     const skeleton::SequentialExecutor one;
     const skeleton::ParallelExecutor<> two(2, 5);
-    const double area = on_the_fly(one);
-    if (on_the_fly(two) != area) wrong("area in parallel");
+    const double area = area_on_the_fly(root, depth, one);
+    if (area_on_the_fly(root, depth, two) != area) wrong("area in parallel");
     // The circles, of length 25 (2 pi / 16 + 2 pi / 32) < 15, and the corners' sides cross fewer
     // than 64 cells a unit of length and depth step.
     if (std::abs(area - area_of_plate()) > 64 / std::exp2(depth)) wrong("area");
@@ -95,16 +141,17 @@ void area_experiment() {
         },
         runs);
     const auto traversal = [&] {
-      if (gdt::traverse(
-              *tree, [](double value) { return value; }, sum) != area) {
-        wrong("area by a tree");
-      }
+      if (gdt::traverse(*tree, std::identity(), sum) != area) wrong("area by a tree");
     };
+    const OneAndTwo times =
+        seconds_by_turns([&] { area_on_the_fly(root, depth, one); },
+                         [&] { area_on_the_fly(root, depth, two); }, depth == deepest ? 15 : 7);
     fmt::print(
         "{{\"depth\": {}, \"area\": {:.9f}, \"error\": {:.3e}, \"on_the_fly\": {}, "
-        "\"two_threads\": {}, \"creation\": {}, \"traversal\": {}, \"nodes\": {}}}\n",
-        depth, area, std::abs(area - area_of_plate()), seconds_of([&] { on_the_fly(one); }, runs),
-        seconds_of([&] { on_the_fly(two); }, runs), creation, seconds_of(traversal, runs),
+        "\"two_threads\": {}, \"simulated\": {}, \"creation\": {}, \"traversal\": {}, "
+        "\"nodes\": {}}}\n",
+        depth, area, std::abs(area - area_of_plate()), times.one, times.two,
+        simulated_speed_up(root, depth, 2), creation, seconds_of(traversal, runs),
         tree->node_count());
   }
 }
@@ -214,7 +261,8 @@ struct SpaceTask {
   Space solid;
 };
 
-auto decomposition_of(const Space& solid) {
+template <class E = skeleton::ParallelExecutor<>>
+auto decomposition_of(const Space& solid, const E& executor = E(0, 3)) {
   constexpr std::uint64_t few = 8;
   const auto centre_of = [](const SpaceTask& task) {
     Vector centre{};
@@ -234,16 +282,55 @@ auto decomposition_of(const Space& solid) {
         }
         return octants;
       },
-      [](const SpaceTask& task) { return task.solid; }, 9, skeleton::ParallelExecutor<>(0, 3),
-      centre_of);
+      [](const SpaceTask& task) { return task.solid; }, 9, executor, centre_of);
 }
 
-void points_experiment() {
+std::vector<Vector> million_points() {
   std::mt19937_64 random(7);
   std::vector<Vector> points(1'000'000);
   for (Vector& p : points) {
     for (double& x : p) x = static_cast<double>(random() % (24U << 20U)) / (1U << 20U) - 1;
   }
+  return points;
+}
+
+using Decomposition = decltype(decomposition_of(Space()));
+
+PointClass membership(const Decomposition& tree, const Vector& p) {
+  return membership(gdt::descend(tree,
+                                 [&](const Vector& centre) {
+                                   return (p[0] < centre[0] ? 0U : 1U) +
+                                          (p[1] < centre[1] ? 0U : 2U) +
+                                          (p[2] < centre[2] ? 0U : 4U);
+                                 }),
+                    p);
+}
+
+// Batches that any thread may take; how many points are inside.
+template <class E>
+std::size_t classify_all(const Decomposition& tree, std::span<const Vector> points,
+                         std::span<PointClass> classes, const E& executor) {
+  using Batch = std::pair<std::size_t, std::size_t>;
+  constexpr std::size_t batch = 4096;
+  return skeleton::divacon(
+      Batch(0, points.size()), [](const Batch& b) { return b.second - b.first <= batch; },
+      [](const Batch& b) {
+        const std::size_t middle = b.first + (b.second - b.first) / 2;
+        return std::array{Batch(b.first, middle), Batch(middle, b.second)};
+      },
+      [&](const Batch& b) {
+        std::size_t inside = 0;
+        for (std::size_t i = b.first; i < b.second; ++i) {
+          classes[i] = membership(tree, points[i]);
+          inside += classes[i] == PointClass::In ? 1 : 0;
+        }
+        return inside;
+      },
+      [](std::span<std::size_t> halves) { return halves[0] + halves[1]; }, executor);
+}
+
+void points_experiment() {
+  const std::vector<Vector> points = million_points();
   const Space solid = octahedra();
   for (std::size_t i = 0; i < 100; ++i) {
     if (membership(solid, points[i]) != expected(points[i])) wrong("a point by the tree");
@@ -253,29 +340,18 @@ void points_experiment() {
                            for (std::size_t i = 0; i < sample; ++i) membership(solid, points[i]);
                          }) /
                          sample;
-  std::optional<decltype(decomposition_of(solid))> tree;
+  std::optional<Decomposition> tree;
   const double creation = seconds_of([&] { tree = decomposition_of(solid); }, 1);
-  const auto by_decomposition = [&](const Vector& p) {
-    return membership(gdt::descend(*tree,
-                                   [&](const Vector& centre) {
-                                     return (p[0] < centre[0] ? 0U : 1U) +
-                                            (p[1] < centre[1] ? 0U : 2U) +
-                                            (p[2] < centre[2] ? 0U : 4U);
-                                   }),
-                      p);
-  };
-  for (const Vector& p : points) {
-    if (by_decomposition(p) != expected(p)) wrong("a point by the decomposition");
-  }
   std::vector<PointClass> classes(points.size());
-  const auto classify_half = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) classes[i] = by_decomposition(points[i]);
-  };
-  const double one = seconds_of([&] { classify_half(0, points.size()); });
-  const double two = seconds_of([&] {
-    std::jthread other([&] { classify_half(0, points.size() / 2); });
-    classify_half(points.size() / 2, points.size());
-  });
+  const skeleton::SequentialExecutor one;
+  const skeleton::ParallelExecutor<> two(2);
+  const std::size_t inside = classify_all(*tree, points, classes, one);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (classes[i] != expected(points[i])) wrong("a point by the decomposition");
+  }
+  if (classify_all(*tree, points, classes, two) != inside) wrong("points in parallel");
+  const OneAndTwo times = seconds_by_turns([&] { classify_all(*tree, points, classes, one); },
+                                           [&] { classify_all(*tree, points, classes, two); }, 15);
   const Mesh mesh = mesh_of_octahedra();
   const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(mesh);
   const auto by_mesh = [&](const Vector& p) {
@@ -300,8 +376,20 @@ void points_experiment() {
   fmt::print(
       "{{\"half_spaces\": {}, \"nodes\": {}, \"creation\": {}, \"tree\": {}, "
       "\"decomposition\": {}, \"two_threads\": {}, \"cgal\": {}}}\n",
-      solid.primitive_count(), tree->node_count(), creation, by_tree, one / count, two / count,
-      by_cgal);
+      solid.primitive_count(), tree->node_count(), creation, by_tree, times.one / count,
+      times.two / count, by_cgal);
+}
+
+void alone(const std::string& task, double seconds) {
+  const skeleton::SequentialExecutor one;
+  if (task == "area") {
+    const Local root = whole_plate();
+    return repeat([&] { area_on_the_fly(root, deepest, one); }, seconds);
+  }
+  const std::vector<Vector> points = million_points();
+  const Decomposition tree = decomposition_of(octahedra(), one);
+  std::vector<PointClass> classes(points.size());
+  repeat([&] { classify_all(tree, points, classes, one); }, seconds);
 }
 
 }  // namespace
@@ -316,8 +404,11 @@ int main(int argc, char** argv) {
     area_experiment();
   } else if (task == "points") {
     points_experiment();
+  } else if (task == "alone" && argc > 3) {
+    alone(argv[2], std::stod(argv[3]));
   } else {
-    fmt::print(stderr, "gel_experiments membership N | area | points\n");
+    fmt::print(stderr,
+               "gel_experiments membership N | area | points | alone area|points SECONDS\n");
     return 2;
   }
 }

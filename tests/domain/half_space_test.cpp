@@ -23,6 +23,7 @@ namespace {
 using csg::Membership;
 
 const Rational tiny(Integer(1), Integer(1) << 300);
+const Rational tiniest(Integer(1), Integer(1) << 1000);
 
 // A box that touches is Out; one that reaches 2^-300 further is mixed. Likewise inside.
 template <std::size_t D>
@@ -165,9 +166,11 @@ TEST(HalfSpaces, TiersAreCounted) {
   EXPECT_EQ(classify(disc, Point<2>(1, 1), &statistics), PointClass::In);
   EXPECT_EQ(classify(disc, Point<2>(3, 4), &statistics), PointClass::On);
   EXPECT_EQ(classify(disc, Point<2>(3 + tiny, 4), &statistics), PointClass::Out);
+  EXPECT_EQ(classify(disc, Point<2>(3 - tiniest, 4), &statistics), PointClass::In);
   TierStatistics expected;
   expected.record(Tier::Double, false);
-  expected.record(Tier::Unbounded, true);
+  expected.record(Tier::Fixed, true);
+  expected.record(Tier::Fixed, false);
   expected.record(Tier::Unbounded, false);
   EXPECT_EQ(statistics, expected);
 }

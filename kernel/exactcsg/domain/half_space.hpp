@@ -17,8 +17,9 @@
 // LAW half_space.4  complement(h) has In and Out swapped, On where h has.
 // LAW half_space.5  apply(m, h) has at m(x) the class that h has at x, for points; for lines the
 //                   same parameters.
-// COST: a point some twenty operations in doubles, exact only near the boundary; a box the like,
-// exact (see quadric.hpp) only if it nearly touches; a line O(1) rational operations.
+// COST: a point some twenty operations in doubles, and near the boundary as many in integers on the
+// stack, or rational ones where bits are too many for that (statistics count which); a box the
+// like, exact (see quadric.hpp) only if it nearly touches; a line O(1) rational operations.
 //
 // Source: Davy and Dew, sections 3.2 and 3.4 (the domain of half-spaces); exactness is ours.
 

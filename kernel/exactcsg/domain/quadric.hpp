@@ -9,7 +9,8 @@
 // LAW quadric.2  range(f, box) is the least and the greatest value of f on the box.
 // LAW quadric.3  restrict(f, section)(t) == f(section.at(t)).
 // LAW quadric.4  substitute(f, M)(x) == f(M x), M an affine map.
-// COST: sign a dozen operations in certified doubles, and O(D^2) rational ones near zero; range the
+// COST: sign a dozen operations in certified doubles; near zero, O(D^2) in integers on the stack
+// (fixed_width_sign.hpp), or in rationals if these would be too long; range the
 // solution of at most 3^D systems of at most D linear equations.
 //
 // Range: the least value is taken at a point of the relative interior of some face of the box,
@@ -23,7 +24,9 @@
 #include <cstddef>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "exactcsg/domain/fixed_width_sign.hpp"
 #include "exactcsg/domain/point.hpp"
 #include "exactcsg/number/quadratic_number.hpp"
 #include "exactcsg/number/tier_statistics.hpp"
@@ -68,6 +71,7 @@ class Quadric {
         is_linear_ = is_linear_ && square_[i][j] == 0;
       }
     }
+    fixed_width_ = FixedWidthPolynomial<D>(coefficients());
   }
 
   const Matrix& square() const noexcept { return square_; }
@@ -110,6 +114,10 @@ class Quadric {
     if (std::abs(filter.value) > filter.error) {
       if (statistics != nullptr) statistics->record(Tier::Double, false);
       return filter.value > 0 ? Sign::Positive : Sign::Negative;
+    }
+    if (const std::optional<Sign> fixed = fixed_width_.sign(point.coordinates())) {
+      if (statistics != nullptr) statistics->record(Tier::Fixed, *fixed == Sign::Zero);
+      return *fixed;
     }
     const Sign exact = sign_of((*this)(point.coordinates()));
     if (statistics != nullptr) statistics->record(Tier::Unbounded, exact == Sign::Zero);
@@ -157,6 +165,17 @@ class Quadric {
   }
 
  private:
+  // As FixedWidthPolynomial takes them.
+  std::vector<Rational> coefficients() const {
+    std::vector<Rational> result{linear_.constant};
+    result.insert(result.end(), linear_.normal.begin(), linear_.normal.end());
+    for (std::size_t i = 0; i < D && !is_linear_; ++i) {
+      result.push_back(square_[i][i]);
+      for (std::size_t j = i + 1; j < D; ++j) result.push_back(2 * square_[i][j]);
+    }
+    return result;
+  }
+
   static bool is_exactly_zero(const CertifiedDouble& x) { return x.value == 0 && x.error == 0; }
   static double magnitude(CertifiedDouble x) { return std::abs(x.value) + x.error; }
 
@@ -165,6 +184,7 @@ class Quadric {
   CertifiedDouble approximate_constant_;
   std::array<CertifiedDouble, D> approximate_linear_;
   std::array<std::array<CertifiedDouble, D>, D> approximate_square_;
+  FixedWidthPolynomial<D> fixed_width_;
   Matrix square_;
   LinearForm<D> linear_;
 };
