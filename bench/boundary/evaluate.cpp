@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One workload of the comparison of boundary evaluators in a process of its own:
+//   boundary_evaluate solve NAME SIZE [THREADS]   a line of JSON: times, memory, figures, checks
+//   boundary_evaluate csg NAME SIZE               the model for OpenSCAD
+//   boundary_evaluate leaves NAME SIZE FILE       the model for bench/boundary/manifold.mjs
+// The clock runs from the solid in memory to the canonical boundary with volume, area and digest.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <bit>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bench/boundary/line_sampling.hpp"
+#include "bench/boundary/workloads.hpp"
+#include "cli/allocator.hpp"
+#include "exactcsg/io/mesh/solid_of_boundary.hpp"
+#include "exactcsg/solid/evaluate.hpp"
+#include "exactcsg/solid/figures.hpp"
+#include "exactcsg/solid/scaled_vertices.hpp"
+
+namespace exactcsg::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+long peak_kilobytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+Json tiers(const TierStatistics& statistics) {
+  constexpr std::array<const char*, tier_count> names{"symbolic", "double", "fixed", "unbounded"};
+  Json result;
+  for (std::size_t i = 0; i < tier_count; ++i) {
+    result[names[i]] = {{"answers", statistics.answers[i]}, {"zeros", statistics.zeros[i]}};
+  }
+  return result;
+}
+
+// What a result differs in from what is expected, and in what it was checked.
+struct Verdict {
+  std::vector<std::string> wrong;
+  std::vector<std::string> checked;
+
+  void check(const std::string& what, bool right) { (right ? checked : wrong).push_back(what); }
+};
+
+void check_closed_forms(const Boundary& boundary, const Expectation& expected, Verdict& verdict) {
+  if (expected.volume) {
+    verdict.check("volume", boundary.empty() ? *expected.volume == 0
+                                             : exact_volume(boundary) == expected.volume);
+  }
+  if (expected.area) {
+    verdict.check("area",
+                  boundary.empty() ? *expected.area == 0 : exact_area(boundary) == expected.area);
+  }
+  if (expected.counts) {
+    const std::array<std::uint64_t, 3> counts{boundary.vertices.size(), boundary.edges.size(),
+                                              boundary.faces.size()};
+    verdict.check("counts", counts == *expected.counts);
+  }
+  if (expected.genus) verdict.check("genus", topology(boundary).genus == *expected.genus);
+}
+
+// Five standard errors, each rather too large: chance does not get there.
+void check_by_lines(const Solid& solid, double volume, Verdict& verdict) {
+  const SampledVolume sampled = LineSampling(solid, 100)();
+  verdict.check(fmt::format("lines within {:.1e}", sampled.standard_error / volume),
+                std::abs(sampled.volume - volume) <= 5 * sampled.standard_error);
+}
+
+Json solve_tree(const std::string& name, std::size_t size, unsigned threads) {
+  const Stopwatch reading;
+  const Workload workload = make_workload(name, size);
+  const Solid solid = solid_of(workload.model);
+  Json result;
+  result["load"] = reading.seconds();
+
+  EvaluateOptions options;
+  options.threads = threads;
+  const Stopwatch clock;
+  const Boundary boundary = evaluate(solid, options);
+  const double evaluated = clock.seconds();
+  const MeasuredFigures figures =
+      measure(boundary, 17, has_short_common_denominator(boundary) ? 256 : 0);
+  const double measured = clock.seconds();
+  result["digest"] = digest(boundary);
+  const double seconds = clock.seconds();
+
+  result["seconds"] = seconds;
+  result["phases"] = {
+      {"evaluate", evaluated}, {"measure", measured - evaluated}, {"digest", seconds - measured}};
+  result["peak_kilobytes"] = peak_kilobytes();
+  result["volume"] = figures.volume_decimal;
+  result["area"] = figures.area_decimal;
+  result["counts"] = {boundary.vertices.size(), boundary.edges.size(), boundary.faces.size()};
+  const EvaluationStatistics& statistics = boundary.statistics;
+  result["primitives"] = statistics.primitives;
+  result["facets"] = statistics.facets;
+  result["cells"] = {statistics.cells, statistics.evaluated_cells};
+  result["tiers"] = tiers(statistics.tiers);
+
+  Verdict verdict;
+  check_closed_forms(boundary, workload.expected, verdict);
+  if (!workload.expected.volume) {
+    check_by_lines(solid, std::strtod(figures.volume_decimal.c_str(), nullptr), verdict);
+  }
+  result["checked"] = verdict.checked;
+  result["wrong"] = verdict.wrong;
+  return result;
+}
+
+// Every intermediate result is evaluated, measured and made a leaf again.
+Json solve_sequence(std::size_t side, unsigned threads) {
+  const CubeSequence sequence = cube_sequence(side);
+  const std::vector<GridFigures> expected = expected_figures(sequence, side);
+  std::vector<Solid> cubes;
+  PrimitiveMaker primitive_of;
+  for (const auto* places : {&sequence.united, &sequence.subtracted}) {
+    for (const auto& place : *places) {
+      cubes.push_back(Solid::primitive(primitive_of(cube_at(place).primitive())));
+    }
+  }
+  EvaluateOptions options;
+  options.threads = threads;
+  Json result;
+  Verdict verdict;
+  TierStatistics statistics;
+  double leaf_seconds = 0;
+  const Stopwatch clock;
+  Solid solid;
+  for (std::size_t i = 0; i < cubes.size(); ++i) {
+    const bool unites = i < sequence.united.size();
+    const Boundary boundary =
+        evaluate(unites ? csg::unite(solid, cubes[i]) : csg::subtract(solid, cubes[i]), options);
+    const MeasuredFigures figures = measure(boundary, 17, 256);
+    result["digest"] = digest(boundary);
+    statistics += boundary.statistics.tiers;
+    if (figures.volume_decimal != std::to_string(expected[i].volume) ||
+        figures.area_decimal != std::to_string(expected[i].area)) {
+      verdict.wrong.push_back(fmt::format("after operation {}", i));
+      break;
+    }
+    const Stopwatch leaf;
+    solid = io::solid_of_boundary(boundary);
+    leaf_seconds += leaf.seconds();
+  }
+  result["seconds"] = clock.seconds();
+  result["phases"] = {{"evaluate, measure, digest", clock.seconds() - leaf_seconds},
+                      {"leaf again", leaf_seconds}};
+  result["peak_kilobytes"] = peak_kilobytes();
+  result["load"] = 0;
+  result["volume"] = "0";
+  result["area"] = "0";
+  verdict.check("empty at the end", solid.is_empty());
+  verdict.checked.push_back(fmt::format("volume and area {} times", cubes.size()));
+  result["tiers"] = tiers(statistics);
+  result["checked"] = verdict.checked;
+  result["wrong"] = verdict.wrong;
+  return result;
+}
+
+// ---- for other programs -----------------------------------------------------------------------
+
+// Shapes of one kind and size are one leaf, placed by maps.
+class LeafWriter {
+ public:
+  explicit LeafWriter(const std::string& file) : binary_(file + ".bin", std::ios::binary) {}
+
+  Json number_of(const Shape& shape) {
+    Shape unplaced = shape;
+    unplaced.map = AffineMap::identity();
+    const std::string key =
+        fmt::format("{} {} {} {} {} {}", static_cast<int>(shape.kind), to_text(shape.sizes[0]),
+                    to_text(shape.sizes[1]), to_text(shape.sizes[2]), shape.fragments,
+                    static_cast<const void*>(shape.mesh.get()));
+    const auto [found, added] = numbers_.try_emplace(key, leaves_.size());
+    if (added) leaves_.push_back(write(polyhedron_of(primitive_of_(unplaced))));
+    return found->second;
+  }
+
+  Json leaves() const { return leaves_; }
+
+ private:
+  Json write(const Polyhedron& polyhedron) {
+    std::vector<std::array<double, 3>> points = nearest_doubles(polyhedron.vertices);
+    std::vector<std::uint32_t> triangles;
+    for (const Facet& facet : polyhedron.facets) {
+      for (std::size_t i = 1; i + 1 < facet.size(); ++i) {
+        triangles.insert(triangles.end(), {facet[0], facet[i], facet[i + 1]});
+      }
+    }
+    if (triangles.size() % 2 != 0) triangles.push_back(0);  // the next doubles stay aligned
+    Json leaf{{"at", offset_}, {"vertices", points.size()}, {"indices", triangles.size()}};
+    append(points.data(), points.size() * sizeof(points[0]));
+    append(triangles.data(), triangles.size() * sizeof(triangles[0]));
+    leaf["indices"] = 3 * (triangles.size() / 3);
+    return leaf;
+  }
+
+  void append(const void* data, std::size_t size) {
+    binary_.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+    offset_ += size;
+  }
+
+  PrimitiveMaker primitive_of_;
+  std::ofstream binary_;
+  std::size_t offset_ = 0;
+  std::map<std::string, std::size_t> numbers_;
+  Json leaves_ = Json::array();
+};
+
+Json placed(const Shape& shape, LeafWriter& writer) {
+  Json map = Json::array();
+  for (const auto& row : shape.map.m) {
+    for (const Rational& entry : row) map.push_back(nearest_double(entry));
+  }
+  return {{"leaf", writer.number_of(shape)}, {"map", map}};
+}
+
+// FILE.json: the leaves' places in FILE.bin, and the tree in postfix order; FILE.bin: vertices as
+// doubles, then triangles as 32-bit integers, in the byte order of the machine.
+void write_leaves(const std::string& name, std::size_t size, const std::string& file) {
+  static_assert(std::endian::native == std::endian::little);
+  using Cursor = Model::Cursor;
+  const Workload workload = make_workload(name, size);
+  LeafWriter writer(file);
+  Json program = Json::array();
+  csg::walk(
+      workload.model.root(), [](Cursor) { return true; },
+      [&](Cursor node) { program.push_back(placed(node.primitive(), writer)); },
+      [&](Cursor node) {
+        const bool is_union = node.operation() == csg::BooleanOperator::Union;
+        program.push_back({{"operation", is_union ? "union" : "difference"},
+                           {"operands", node.tree().children().size()}});
+      });
+  Json document{{"program", program}, {"leaves", writer.leaves()}};
+  if (name == "cube_sequence") {
+    // After each operation, in the order of the program's primitives.
+    for (const GridFigures& figures : expected_figures(cube_sequence(size), size)) {
+      document["expected"].push_back({figures.volume, figures.area});
+    }
+  }
+  std::ofstream(file + ".json") << document.dump();
+}
+
+int usage() {
+  fmt::print(stderr, "boundary_evaluate solve|csg|leaves NAME SIZE [THREADS|FILE]\n");
+  return 2;
+}
+
+int run(const std::vector<std::string>& arguments) {
+  if (arguments.size() < 3) return usage();
+  const std::string& command = arguments[0];
+  const std::string& name = arguments[1];
+  const std::size_t size = std::stoul(arguments[2]);
+  if (command == "csg") {
+    std::cout << csg_of(make_workload(name, size).model);
+  } else if (command == "leaves" && arguments.size() > 3) {
+    write_leaves(name, size, arguments[3]);
+  } else if (command == "solve") {
+    const auto threads =
+        arguments.size() > 3 ? static_cast<unsigned>(std::stoul(arguments[3])) : 1U;
+    const Json result =
+        name == "cube_sequence" ? solve_sequence(size, threads) : solve_tree(name, size, threads);
+    std::cout << result.dump() << std::endl;
+    return result["wrong"].empty() ? 0 : 1;
+  } else {
+    return usage();
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace exactcsg::bench
+
+int main(int count, char** values) {
+  exactcsg::cli::use_huge_pages();
+  try {
+    return exactcsg::bench::run({values + 1, values + count});
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+}
