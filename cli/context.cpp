@@ -34,10 +34,8 @@ constexpr std::size_t few_facets = 1000;
 std::size_t facets_of(const Solid& solid) {
   std::size_t facets = 0;
   csg::for_each_primitive(solid, [&](const Primitive& primitive) {
-    if (const auto* polytope = std::get_if<ConvexPolytope>(&primitive.shape)) {
-      facets += polytope->polyhedron->facets.size();
-    } else if (const auto* mesh = std::get_if<PolyhedralMesh>(&primitive.shape)) {
-      facets += mesh->polyhedron->facets.size();
+    if (const Polyhedron* polyhedron = polyhedron_of(primitive)) {
+      facets += polyhedron->facets.size();
     }
   });
   return facets;

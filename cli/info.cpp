@@ -23,16 +23,14 @@ struct Counts {
   std::array<std::uint64_t, 4> operators{};
 
   void add(const Primitive& primitive) {
-    if (std::holds_alternative<HalfSpace>(primitive.shape)) {
+    const Polyhedron* polyhedron = polyhedron_of(primitive);
+    if (polyhedron == nullptr) {
       ++half_spaces;
       ++facets;
-    } else if (const auto* polytope = std::get_if<ConvexPolytope>(&primitive.shape)) {
-      ++polytopes;
-      facets += polytope->polyhedron->facets.size();
-    } else if (const auto* mesh = std::get_if<PolyhedralMesh>(&primitive.shape)) {
-      ++meshes;
-      facets += mesh->polyhedron->facets.size();
+      return;
     }
+    ++(std::holds_alternative<ConvexPolytope>(primitive.shape) ? polytopes : meshes);
+    facets += polyhedron->facets.size();
   }
 };
 

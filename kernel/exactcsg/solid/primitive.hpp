@@ -48,6 +48,17 @@ struct Primitive {
   std::string origin{};
 };
 
+// Null for a half-space; else what the primitive is a handle of.
+inline const Polyhedron* polyhedron_of(const Primitive& primitive) noexcept {
+  if (const auto* polytope = std::get_if<ConvexPolytope>(&primitive.shape)) {
+    return polytope->polyhedron.get();
+  }
+  if (const auto* mesh = std::get_if<PolyhedralMesh>(&primitive.shape)) {
+    return mesh->polyhedron.get();
+  }
+  return nullptr;
+}
+
 HalfSpace make_half_space(const Rational& a, const Rational& b, const Rational& c,
                           const Rational& d);
 

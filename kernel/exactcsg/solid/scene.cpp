@@ -142,16 +142,13 @@ class SceneBuilder {
   };
 
   PrimitiveIndex index_of(const Primitive& primitive) {
-    if (const auto* half_space = std::get_if<HalfSpace>(&primitive.shape)) {
-      return add_half_space(*half_space);
-    }
-    const bool convex = std::holds_alternative<ConvexPolytope>(primitive.shape);
-    const Polyhedron* polyhedron = convex
-                                       ? std::get<ConvexPolytope>(primitive.shape).polyhedron.get()
-                                       : std::get<PolyhedralMesh>(primitive.shape).polyhedron.get();
+    const Polyhedron* polyhedron = polyhedron_of(primitive);
+    if (polyhedron == nullptr) return add_half_space(std::get<HalfSpace>(primitive.shape));
     const auto [place, is_new] =
         known_.try_emplace(polyhedron, static_cast<PrimitiveIndex>(primitives_.size()));
-    if (is_new) add_polyhedron(*polyhedron, convex);
+    if (is_new) {
+      add_polyhedron(*polyhedron, std::holds_alternative<ConvexPolytope>(primitive.shape));
+    }
     return place->second;
   }
 

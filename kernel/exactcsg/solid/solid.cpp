@@ -8,16 +8,6 @@
 
 namespace exactcsg {
 
-namespace {
-
-const Polyhedron* polyhedron_of(const PrimitiveShape& shape) {
-  if (const auto* polytope = std::get_if<ConvexPolytope>(&shape)) return polytope->polyhedron.get();
-  if (const auto* mesh = std::get_if<PolyhedralMesh>(&shape)) return mesh->polyhedron.get();
-  return nullptr;
-}
-
-}  // namespace
-
 Solid apply(const AffineMap& map, const Solid& solid) {
   if (determinant(map) == 0) {
     throw Error(ErrorId::SingularMap, {"a matrix of determinant 0", "an invertible matrix"});
@@ -28,7 +18,7 @@ Solid apply(const AffineMap& map, const Solid& solid) {
              std::variant_size_v<PrimitiveShape>>
       images;
   return csg::map(solid, [&](const Primitive& primitive) {
-    const Polyhedron* polyhedron = polyhedron_of(primitive.shape);
+    const Polyhedron* polyhedron = polyhedron_of(primitive);
     if (polyhedron == nullptr) return apply(map, primitive);
     auto& known = images[primitive.shape.index()];
     const auto found = known.find(polyhedron);

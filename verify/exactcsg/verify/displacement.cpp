@@ -51,16 +51,6 @@ bool pair_leaves(const Solid& a, const Solid& b, std::vector<PrimitivePair>& pai
   return true;
 }
 
-const Polyhedron* polyhedron_of(const Primitive& primitive) {
-  if (const auto* convex = std::get_if<ConvexPolytope>(&primitive.shape)) {
-    return convex->polyhedron.get();
-  }
-  if (const auto* mesh = std::get_if<PolyhedralMesh>(&primitive.shape)) {
-    return mesh->polyhedron.get();
-  }
-  return nullptr;
-}
-
 double distance(const Point3& p, const Point3& q) {
   // The difference is exact before it is rounded: displacements are far below the coordinates'
   // noise.

@@ -223,16 +223,6 @@ struct LargestCoefficients {
   Rational box() const { return Rational(6 * normal * normal * offset + 1); }
 };
 
-const Polyhedron* polyhedron_of(const Primitive& primitive) {
-  if (const auto* convex = std::get_if<ConvexPolytope>(&primitive.shape)) {
-    return convex->polyhedron.get();
-  }
-  if (const auto* mesh = std::get_if<PolyhedralMesh>(&primitive.shape)) {
-    return mesh->polyhedron.get();
-  }
-  return nullptr;
-}
-
 void add_planes(const Polyhedron& polyhedron, LargestCoefficients& largest) {
   for (const Facet& facet : polyhedron.facets) {
     const Point3& p = polyhedron.vertices[facet[0]];

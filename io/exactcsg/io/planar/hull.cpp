@@ -108,8 +108,9 @@ class Merger {
   std::vector<std::uint32_t> face_;  // that a triangle belongs to
 };
 
-Polyhedron polyhedron_of(const std::vector<Point3>& points, const std::vector<HullPoint>& vertices,
-                         const std::vector<std::vector<std::size_t>>& faces) {
+Polyhedron polyhedron_with(const std::vector<Point3>& points,
+                           const std::vector<HullPoint>& vertices,
+                           const std::vector<std::vector<std::size_t>>& faces) {
   Polyhedron polyhedron;
   std::vector<std::uint32_t> number(vertices.size(), none);
   for (const auto& face : faces) {
@@ -153,7 +154,7 @@ Solid hull_of(std::vector<Point3> points) {
   std::vector<Triangle> triangles;
   CGAL::convex_hull_3(candidates.begin(), candidates.end(), vertices, triangles);
   turn_outwards(signs, vertices, triangles);
-  Polyhedron polyhedron = polyhedron_of(points, vertices, Merger(vertices, triangles).faces());
+  Polyhedron polyhedron = polyhedron_with(points, vertices, Merger(vertices, triangles).faces());
   return Solid::primitive({make_convex_polytope_unchecked(std::move(polyhedron))});
 }
 
@@ -174,16 +175,9 @@ bool only_unites(const Tree& tree) {
 bool is_bounded(const Solid& solid) {
   bool bounded = true;
   csg::for_each_primitive(solid, [&](const Primitive& primitive) {
-    bounded = bounded && !std::holds_alternative<HalfSpace>(primitive.shape);
+    bounded = bounded && polyhedron_of(primitive) != nullptr;
   });
   return bounded;
-}
-
-const Polyhedron& polyhedron_of(const Primitive& primitive) {
-  if (const auto* polytope = std::get_if<ConvexPolytope>(&primitive.shape)) {
-    return *polytope->polyhedron;
-  }
-  return *std::get<PolyhedralMesh>(primitive.shape).polyhedron;
 }
 
 void add_outline_points(const PlanarTree& tree, std::vector<ExactPoint2>& points) {
@@ -198,7 +192,7 @@ Solid hull(const Solid& solid) {
   if (!only_unites(solid) || !is_bounded(solid)) return hull_of(evaluate(solid).vertices);
   std::vector<Point3> points;
   csg::for_each_primitive(solid, [&](const Primitive& primitive) {
-    const std::vector<Point3>& vertices = polyhedron_of(primitive).vertices;
+    const std::vector<Point3>& vertices = polyhedron_of(primitive)->vertices;
     points.insert(points.end(), vertices.begin(), vertices.end());
   });
   return hull_of(std::move(points));
