@@ -138,12 +138,10 @@ class SinglePoint {
     throw Error(ErrorId::InternalError, {"a facet without area", ""});
   }
 
-  // Zero also for a triple of collinear corners: then the exact plane is asked.
   Sign side_of_facet(const Polyhedron& polyhedron, const Facet& facet) const {
-    const Sign sign = orientation(polyhedron.vertices[facet[0]], polyhedron.vertices[facet[1]],
-                                  polyhedron.vertices[facet[2]], point_);
-    if (sign != Sign::Zero || facet.size() == 3) return sign;
-    return side(plane_of(polyhedron, facet), point_);
+    return side_of_polygon(
+        facet.size(), [&](std::size_t i) -> const Point3& { return polyhedron.vertices[facet[i]]; },
+        point_);
   }
 
   NearPoint near_polytope(const Polyhedron& polyhedron) {

@@ -30,15 +30,6 @@ DoubleBox box_around(const std::array<double, 3>& position, double error) {
 
 using Corners = std::vector<Point3>;
 
-// Zero also for a triple of collinear corners: then the next one is asked.
-Sign side_of(const Corners& corners, const Point3& point) {
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    const Sign side = orientation(corners[0], corners[i - 1], corners[i], point);
-    if (side != Sign::Zero) return side;
-  }
-  return Sign::Zero;
-}
-
 enum class Passes : unsigned char { Beside, Through, ByASide };
 
 // How the line through p and q, which are not in one plane with the facet, passes a convex facet.
@@ -137,8 +128,9 @@ Membership nearest_crossing(const Point3& point, std::size_t facet_count,
     for (std::size_t f = 0; f < facet_count && !degenerate; ++f) {
       if (!meet(bounds[f], reach)) continue;
       const Corners corners = corners_of(f);
-      const Sign here = side_of(corners, point);
-      const Sign there = side_of(corners, end);
+      const auto corner_at = [&](std::size_t i) -> const Point3& { return corners[i]; };
+      const Sign here = side_of_polygon(corners.size(), corner_at, point);
+      const Sign there = side_of_polygon(corners.size(), corner_at, end);
       if (here == Sign::Zero) {  // the point is in the facet's plane, but not in the facet
         degenerate = there == Sign::Zero;
         continue;
