@@ -178,6 +178,19 @@ void remove_duplicates(std::vector<Surface<D>>& surfaces) {
   surfaces = std::move(different);
 }
 
+// The surfaces that have a tangent plane at the point, each point set once. The germs that show the
+// cells of the others are added to the result.
+template <std::size_t D>
+std::vector<Surface<D>> regular_surfaces(const Point<D>& point,
+                                         std::span<const Quadric<D>* const> surfaces,
+                                         Germs<D>& result) {
+  std::vector<Surface<D>> regular = with_gradients(point, surfaces);
+  const auto singular = take_singular(regular);
+  add_singular(singular, regular.empty(), result);
+  remove_duplicates(regular);
+  return regular;
+}
+
 bool is_in_upper_half(const Vector2& v) { return v[1] > 0 || (v[1] == 0 && v[0] > 0); }
 
 // Counter-clockwise from the positive x axis.
@@ -244,10 +257,7 @@ void add_curved_germs(const std::vector<Surface<2>>& curves, const Vector2& dire
 
 Germs<2> germs_at(const Point<2>& point, std::span<const Quadric<2>* const> surfaces) {
   Germs<2> result;
-  std::vector<Surface<2>> curves = with_gradients(point, surfaces);
-  const auto singular = take_singular(curves);
-  add_singular(singular, curves.empty(), result);
-  remove_duplicates(curves);
+  const std::vector<Surface<2>> curves = regular_surfaces(point, surfaces, result);
   std::vector<Vector2> normals;
   for (const Surface<2>& curve : curves) normals.push_back(curve.gradient);
   const std::vector<Vector2> directions = directions_of_lines(normals);
@@ -375,10 +385,7 @@ void add_cells_between(const Point<3>& point, const Surface<3>& a, const Surface
 
 Germs<3> germs_at(const Point<3>& point, std::span<const Quadric<3>* const> surfaces) {
   Germs<3> result;
-  std::vector<Surface<3>> different = with_gradients(point, surfaces);
-  const auto singular = take_singular(different);
-  add_singular(singular, different.empty(), result);
-  remove_duplicates(different);
+  const std::vector<Surface<3>> different = regular_surfaces(point, surfaces, result);
   if (different.empty()) return result;
   std::vector<Surface<3>> planes;  // one for each tangent plane
   for (const Surface<3>& surface : different) {
