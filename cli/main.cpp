@@ -10,6 +10,7 @@
 #include <iterator>
 #include <new>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -32,6 +33,16 @@ struct ParsedCommon {
   std::optional<double> time_limit;
 };
 
+// CLI11's own validator copies its table of units into every option, at every start: this one makes
+// the table when a size is given.
+CLI::Validator as_size() {
+  const auto parse = [](std::string& text) {
+    static const CLI::AsSizeValue parse_size(false);
+    return parse_size(text);
+  };
+  return {parse, "SIZE [b, kb(=1024b), ...]"};
+}
+
 void add_common_options(CLI::App& arguments, ParsedCommon& parsed, double default_time_limit) {
   parsed.options.memory_limit = default_memory_limit;
   arguments.add_option("--threads", parsed.options.threads, "threads to use (default: all cores)")
@@ -46,7 +57,7 @@ void add_common_options(CLI::App& arguments, ParsedCommon& parsed, double defaul
       .add_option("--memory-limit", parsed.options.memory_limit,
                   "memory to use at most, like 512M or 8G, 0 for no limit (default: 4G)")
       ->type_name("SIZE")
-      ->transform(CLI::AsSizeValue(false));
+      ->transform(as_size());
   arguments.add_flag("--quiet", parsed.options.quiet, "no warnings and no progress line");
 }
 
