@@ -51,12 +51,6 @@ long peak_kilobytes() {
   return usage.ru_maxrss;
 }
 
-const Polyhedron& polyhedron_of(const Primitive& primitive) {
-  if (const auto* convex = std::get_if<ConvexPolytope>(&primitive.shape))
-    return *convex->polyhedron;
-  return *std::get<PolyhedralMesh>(primitive.shape).polyhedron;
-}
-
 Kernel::FT number(const Rational& value) {
   return Kernel::FT(Kernel::Exact_kernel::FT(value.get_mpq_t()));
 }
@@ -198,7 +192,7 @@ template <class Peer>
 std::vector<typename Peer::Value> leaves_of(const Solid& solid) {
   std::vector<typename Peer::Value> leaves;
   csg::for_each_primitive(solid, [&](const Primitive& primitive) {
-    leaves.push_back(Peer::make(polyhedron_of(primitive)));
+    leaves.push_back(Peer::make(*polyhedron_of(primitive)));
   });
   return leaves;
 }
@@ -255,7 +249,7 @@ void solve_sequence(std::size_t side, Json& result) {
     const bool unites = i < sequence.united.size();
     const auto& place =
         unites ? sequence.united[i] : sequence.subtracted[i - sequence.united.size()];
-    auto cube = Peer::make(polyhedron_of(primitive_of(cube_at(place).primitive())));
+    auto cube = Peer::make(*polyhedron_of(primitive_of(cube_at(place).primitive())));
     try {
       value = i == 0   ? std::move(cube)
               : unites ? Peer::unite(value, cube)

@@ -194,7 +194,7 @@ class LeafWriter {
                     to_text(shape.sizes[1]), to_text(shape.sizes[2]), shape.fragments,
                     static_cast<const void*>(shape.mesh.get()));
     const auto [found, added] = numbers_.try_emplace(key, leaves_.size());
-    if (added) leaves_.push_back(write(polyhedron_of(primitive_of_(unplaced))));
+    if (added) leaves_.push_back(write(*polyhedron_of(primitive_of_(unplaced))));
     return found->second;
   }
 

@@ -27,12 +27,6 @@ struct SampledVolume {
   double standard_error = 0;  // from the differences of neighbouring squares: rather too large
 };
 
-inline const Polyhedron& polyhedron_of(const Primitive& primitive) {
-  if (const auto* convex = std::get_if<ConvexPolytope>(&primitive.shape))
-    return *convex->polyhedron;
-  return *std::get<PolyhedralMesh>(primitive.shape).polyhedron;
-}
-
 inline std::vector<std::array<double, 3>> nearest_doubles(const std::vector<Point3>& points) {
   std::vector<std::array<double, 3>> result;
   result.reserve(points.size());
@@ -56,9 +50,9 @@ class LineSampling {
     };
     csg::walk(
         solid.root(), [](Cursor) { return true; }, note, [](Cursor) {});
-    for (const Primitive* primitive : primitives) bound(polyhedron_of(*primitive));
+    for (const Primitive* primitive : primitives) bound(*polyhedron_of(*primitive));
     place_lines();
-    for (std::size_t i = 0; i < primitives.size(); ++i) cross(polyhedron_of(*primitives[i]), i);
+    for (std::size_t i = 0; i < primitives.size(); ++i) cross(*polyhedron_of(*primitives[i]), i);
   }
 
   SampledVolume operator()() {
