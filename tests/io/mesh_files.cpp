@@ -287,11 +287,7 @@ Boundary cube_with_hole() {
     boundary.approximate.push_back({nearest_double(p.x), nearest_double(p.y), nearest_double(p.z)});
   }
   const auto face = [&](std::vector<std::vector<std::uint32_t>> loops) {
-    const auto& loop = loops[0];
-    boundary.planes.push_back(plane_through(boundary.vertices[loop[0]], boundary.vertices[loop[1]],
-                                            boundary.vertices[loop[2]]));
-    boundary.faces.push_back(
-        {static_cast<std::uint32_t>(boundary.planes.size() - 1), std::move(loops)});
+    boundary.faces.push_back({boundary.plane_count++, std::move(loops)});
   };
   face({{0, 3, 2, 1}});
   face({{4, 5, 6, 7}, {12, 15, 14, 13}});
@@ -350,7 +346,7 @@ TEST(MeshTriangulate, FacesThatTouchThemselvesAndAreTilted) {
       boundary.approximate.push_back(
           {nearest_double(q.x), nearest_double(q.y), nearest_double(q.z)});
     }
-    boundary.planes.push_back(make_plane(-1, -2, 7, 0));
+    boundary.plane_count = 1;
     boundary.faces.push_back({0, shapes[s]});
     Rational sum = 0;
     for (const auto& t : triangulate(boundary)) {
@@ -403,9 +399,7 @@ TEST_F(MeshFiles, TheReportCountsWhatRoundingDoes) {
     boundary.approximate.push_back({nearest_double(p.x), nearest_double(p.y), nearest_double(p.z)});
   }
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    boundary.planes.push_back(
-        plane_through(boundary.vertices[a], boundary.vertices[b], boundary.vertices[c]));
-    boundary.faces.push_back({static_cast<std::uint32_t>(boundary.planes.size() - 1), {{a, b, c}}});
+    boundary.faces.push_back({boundary.plane_count++, {{a, b, c}}});
   };
   add(0, 2, 1);
   add(0, 1, 3);

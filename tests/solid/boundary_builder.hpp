@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "exactcsg/solid/boundary.hpp"
+#include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/solid/primitive.hpp"
 
 namespace exactcsg::test {
@@ -18,6 +19,12 @@ namespace exactcsg::test {
 using Loops = std::vector<std::vector<Point3>>;  // outer ones counter-clockwise from outside
 
 inline bool plane_less(const Plane& p, const Plane& q) { return compare(p, q) < 0; }
+
+inline std::vector<Plane> sorted_planes(const Boundary& boundary) {
+  std::vector<Plane> planes = exact_planes(boundary);
+  std::sort(planes.begin(), planes.end(), plane_less);
+  return planes;
+}
 
 // Newell's normal: also for loops that are not convex.
 inline Plane plane_of(const std::vector<Point3>& loop) {
@@ -32,14 +39,16 @@ inline Plane plane_of(const std::vector<Point3>& loop) {
 // REQUIRES every side of a loop to be one maximal edge.
 inline Boundary boundary_of_faces(const std::vector<Loops>& faces) {
   Boundary b;
+  std::vector<Plane> planes;
   for (const Loops& loops : faces) {
     for (const auto& loop : loops) b.vertices.insert(b.vertices.end(), loop.begin(), loop.end());
-    b.planes.push_back(plane_of(loops.front()));
+    planes.push_back(plane_of(loops.front()));
   }
   std::sort(b.vertices.begin(), b.vertices.end());
   b.vertices.erase(std::unique(b.vertices.begin(), b.vertices.end()), b.vertices.end());
-  std::sort(b.planes.begin(), b.planes.end(), plane_less);
-  b.planes.erase(std::unique(b.planes.begin(), b.planes.end()), b.planes.end());
+  std::sort(planes.begin(), planes.end(), plane_less);
+  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+  b.plane_count = static_cast<std::uint32_t>(planes.size());
   const auto index = [&](const Point3& p) {
     return static_cast<std::uint32_t>(std::lower_bound(b.vertices.begin(), b.vertices.end(), p) -
                                       b.vertices.begin());
@@ -48,8 +57,8 @@ inline Boundary boundary_of_faces(const std::vector<Loops>& faces) {
   for (const Loops& loops : faces) {
     BoundaryFace face;
     face.plane = static_cast<std::uint32_t>(
-        std::lower_bound(b.planes.begin(), b.planes.end(), plane_of(loops.front()), plane_less) -
-        b.planes.begin());
+        std::lower_bound(planes.begin(), planes.end(), plane_of(loops.front()), plane_less) -
+        planes.begin());
     for (const auto& loop : loops) {
       face.loops.emplace_back();
       for (const Point3& p : loop) face.loops.back().push_back(index(p));
@@ -65,9 +74,8 @@ inline Boundary boundary_of_faces(const std::vector<Loops>& faces) {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   for (const auto& [from, to] : edges) b.edges.push_back({from, to});
-  std::sort(b.faces.begin(), b.faces.end(), [](const BoundaryFace& f, const BoundaryFace& g) {
-    return std::tie(f.plane, f.loops) < std::tie(g.plane, g.loops);
-  });
+  std::sort(b.faces.begin(), b.faces.end(),
+            [](const BoundaryFace& f, const BoundaryFace& g) { return f.loops < g.loops; });
   for (const Point3& p : b.vertices) {
     b.approximate.push_back({nearest_double(p.x), nearest_double(p.y), nearest_double(p.z)});
   }

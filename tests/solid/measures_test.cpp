@@ -233,7 +233,7 @@ TEST(Measures, LargeBoundariesAreFast) {
     Boundary b;
     const Polyhedron cube = octahedron(side, side, side);
     const int n = 33000;
-    b.planes.resize(8 * n);
+    b.plane_count = 8 * n;
     for (int i = 0; i < n; ++i) {
       const auto first = static_cast<std::uint32_t>(b.vertices.size());
       for (const Point3& p : cube.vertices) b.vertices.push_back({p.x + 3 * i, p.y, p.z});

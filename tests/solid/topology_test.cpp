@@ -192,7 +192,7 @@ TEST(TopologyOf, LargeBoundariesAreFast) {
       b.faces.push_back({0, {{first + f[0], first + f[1], first + f[2]}}});
     }
   }
-  b.planes.push_back({1, 0, 0, 0});  // not looked at where edges have two faces
+  b.plane_count = 1;  // not looked at where edges have two faces
   b.edges.resize(12 * n);
   const auto start = std::chrono::steady_clock::now();
   const Topology t = topology(b);

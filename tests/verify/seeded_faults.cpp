@@ -12,6 +12,7 @@
 #include <functional>
 #include <iterator>
 
+#include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/verify/golden.hpp"
 #include "exactcsg/verify/mesh_comparison.hpp"
 #include "exactcsg/verify/nef.hpp"
@@ -55,7 +56,7 @@ std::uint32_t vertex_at(const Boundary& b, const Point3& p) {
 
 std::size_t face_on(const Boundary& b, const Plane& plane) {
   for (std::size_t f = 0; f < b.faces.size(); ++f) {
-    if (b.planes[b.faces[f].plane] == plane) return f;
+    if (exact_plane(b, b.faces[f]) == plane) return f;
   }
   ADD_FAILURE() << "no face on that plane";
   return 0;
@@ -141,19 +142,19 @@ std::vector<Fault> boundary_faults() {
                   {"(1, 1, 0) - (1, 2, 0)"}),
       in_boundary("plane_sign_wrong",
                   [](Boundary& b) {
-                    Plane& p = b.planes[b.faces[face_on(b, right)].plane];
-                    p = opposite(p);
+                    for (auto& loop : b.faces[face_on(b, bottom)].loops) turn(loop);
                   },
-                  {"-1 x + 0 y + 0 z + 4", "[4, 0, 0]"}),
-      in_boundary("plane_offset_wrong",
-                  [](Boundary& b) { b.planes[b.faces[face_on(b, right)].plane].d -= 1; },
-                  {"(4, 0, 0) is not in the plane"}),
-      in_boundary("plane_not_coprime",
+                  {"face plane only in ours: 0 x + 0 y + 1 z + 0",
+                   "walked 2 times forward and 0 times backward: (0, 0, 0) - (4, 0, 0)"}),
+      in_boundary("plane_numbers_exchanged",
                   [](Boundary& b) {
-                    Plane& p = b.planes[b.faces[face_on(b, right)].plane];
-                    p = {2, 0, 0, -8};
+                    std::swap(b.faces[face_on(b, right)].plane, b.faces[face_on(b, bottom)].plane);
                   },
-                  {"not coprime: 2 x"}),
+                  {"not numbered by its first face"}),
+      in_boundary("plane_number_out_of_range",
+                  [](Boundary& b) { b.faces[face_on(b, right)].plane = b.plane_count; },
+                  {"names plane"}),
+      in_boundary("plane_of_no_face", [](Boundary& b) { ++b.plane_count; }, {"of no face"}),
       in_boundary(
           "face_on_another_plane",
           [](Boundary& b) { b.faces[face_on(b, right)].plane = b.faces[face_on(b, bottom)].plane; },
@@ -192,7 +193,7 @@ std::vector<Fault> boundary_faults() {
                   [](Boundary& b) {
                     b.faces[face_on(b, right)].loops[0][1] = vertex_at(b, {0, 0, 0});
                   },
-                  {"(0, 0, 0) is not in the plane"}),
+                  {"a side of a face is no edge of the boundary: (0, 0, 0) - (4, 3, 1)"}),
       in_boundary("index_out_of_range", [](Boundary& b) { b.faces[0].loops[0][0] = 1'000'000; },
                   {"names vertex 1000000"}),
       in_boundary("double_position_wrong",
@@ -241,11 +242,11 @@ std::vector<Check> wall_between_flush_boxes() {
   Boundary left = evaluate(box({0, 0, 0}, {1, 1, 1}));
   const Boundary second = evaluate(box({1, 0, 0}, {2, 1, 1}));
   const auto n = static_cast<std::uint32_t>(left.vertices.size());
-  const auto planes = static_cast<std::uint32_t>(left.planes.size());
+  const std::uint32_t planes = left.plane_count;
   left.vertices.insert(left.vertices.end(), second.vertices.begin(), second.vertices.end());
   left.approximate.insert(left.approximate.end(), second.approximate.begin(),
                           second.approximate.end());
-  left.planes.insert(left.planes.end(), second.planes.begin(), second.planes.end());
+  left.plane_count += second.plane_count;
   for (const BoundaryEdge& e : second.edges) left.edges.push_back({e.from + n, e.to + n});
   for (BoundaryFace face : second.faces) {
     face.plane += planes;

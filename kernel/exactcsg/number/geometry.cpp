@@ -27,10 +27,6 @@ const Plane& Geometry::exact_plane(PlaneRef plane) const {
   return data_->exact(plane.table_index());
 }
 
-Plane Geometry::exact_plane_once(PlaneRef plane) const {
-  return plane.is_wall() ? exact_plane_value(plane) : data_->exact_once(plane.table_index());
-}
-
 Plane Geometry::exact_plane_value(PlaneRef plane) const {
   if (!plane.is_wall()) return exact_plane(plane);
   const Coefficients<Integer> c = load<Integer>(data_->operand(plane));

@@ -110,7 +110,6 @@ class Geometry {
   // Exact coprime integer coefficients with the stored normal's sense; walls too.
   const Plane& exact_plane(PlaneRef plane) const;  // REQUIRES !plane.is_wall()
   Plane exact_plane_value(PlaneRef plane) const;   // any
-  Plane exact_plane_once(PlaneRef plane) const;    // any; not kept for the next who asks
   const Point3& point(PointId id) const;
   Point3 exact_point(const Vertex& v) const;
 

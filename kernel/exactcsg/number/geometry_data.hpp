@@ -39,10 +39,6 @@ struct Geometry::Data {
     return planes.exact(
         [this](PointId id) -> const auto& { return homogeneous(id); }, plane);
   }
-  Plane exact_once(std::uint32_t plane) const {
-    return planes.exact_once(
-        [this](PointId id) -> const auto& { return homogeneous(id); }, plane);
-  }
   const Homogeneous<Integer>& homogeneous(PointId id) const {
     return homogeneous_points.get(static_cast<std::size_t>(id),
                                   [&] { return homogeneous_of(points.exact(id)); });

@@ -27,9 +27,6 @@ class LazyTable {
     for (std::size_t i = 0; i < size_; ++i) delete entries_[i].load(std::memory_order_acquire);
   }
 
-  // The value if it is known already, else a null pointer.
-  const T* known(std::size_t i) const { return entries_[i].load(std::memory_order_acquire); }
-
   // `compute()` returns the value. The reference lives as long as the table.
   template <class Compute>
   const T& get(std::size_t i, const Compute& compute) const {

@@ -62,15 +62,6 @@ class PlaneTable {
     return computed_.get(i, [&] { return compute(homogeneous, source); });
   }
 
-  // The same for one who will not ask again: what is not known yet is not kept.
-  template <class HomogeneousOfPoint>
-  Plane exact_once(const HomogeneousOfPoint& homogeneous, std::uint32_t i) const {
-    const PlaneSource& source = sources_[i];
-    if (source.exact) return *source.exact;
-    if (const Plane* known = computed_.known(i)) return *known;
-    return compute(homogeneous, source);
-  }
-
  private:
   template <class HomogeneousOfPoint>
   static Plane compute(const HomogeneousOfPoint& homogeneous, const PlaneSource& source) {

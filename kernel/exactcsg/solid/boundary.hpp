@@ -8,9 +8,10 @@
 //
 // LAW boundary.1  it depends on the point set alone: not on how the tree is written, on the cells
 // of the decomposition, on the executor or on the number of threads. LAW boundary.2  vertices are
-// sorted lexicographically, edges by (from, to) with from < to, faces by plane and then by their
-// loops; a loop starts at its smallest vertex. LAW boundary.3  for a bounded solid the directed
-// edges of all loops balance: every edge is walked as often in one direction as in the other.
+// sorted lexicographically, edges by (from, to) with from < to, faces by their loops, planes by
+// their first face; a loop starts at its smallest vertex. LAW boundary.3  for a bounded solid the
+// directed edges of all loops balance: every edge is walked as often in one direction as in the
+// other.
 //
 // Source: DESIGN section 5 (docs/architecture.md); MEG (longest wires) in the Bath modellers'
 // paper.
@@ -32,7 +33,9 @@ struct BoundaryEdge {
 };
 
 struct BoundaryFace {
-  std::uint32_t plane = 0;  // index into planes: outward normal, solid at plane <= 0
+  // Faces of one oriented plane have one number, below plane_count. exact_plane of face_planes.hpp
+  // gives its coefficients.
+  std::uint32_t plane = 0;
   // Vertex indices of each boundary component, the face on the left seen from outside (outer loops
   // counter-clockwise, holes clockwise). Every edge of a loop is an edge of the boundary.
   std::vector<std::vector<std::uint32_t>> loops;
@@ -50,7 +53,7 @@ struct EvaluationStatistics {
 struct Boundary {
   std::vector<Point3> vertices;
   std::vector<std::array<double, 3>> approximate;  // vertices rounded to nearest
-  std::vector<Plane> planes;                       // sorted, distinct, oriented
+  std::uint32_t plane_count = 0;                   // distinct oriented planes of faces
   std::vector<BoundaryEdge> edges;
   std::vector<BoundaryFace> faces;
   EvaluationStatistics statistics;
@@ -75,10 +78,10 @@ struct Topology {
 
 Topology topology(const Boundary& boundary);
 
-// 64 hexadecimal digits: SHA-256 over the sorted exact vertices, edges, oriented planes of faces
-// and sides of faces (docs/digest.md). LAW digest.1  equal boundaries have equal digests, and (but
-// for a collision of SHA-256) equal digests mean the same solid. Vertices, edges and planes without
-// the sides would not do. LAW digest.2  it does not depend on the order of vertices, edges, planes,
+// 64 hexadecimal digits: SHA-256 over the sorted exact vertices, the edges and the sides of faces
+// by oriented planes (docs/digest.md). LAW digest.1  equal boundaries have equal digests, and (but
+// for a collision of SHA-256) equal digests mean the same solid. Vertices and edges without the
+// sides would not do. LAW digest.2  it does not depend on the order of vertices, edges, planes,
 // faces and loops.
 std::string digest(const Boundary& boundary);
 

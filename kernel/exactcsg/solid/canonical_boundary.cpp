@@ -790,7 +790,7 @@ class Merger {
         std::less<>());
     boundary.edges.erase(std::unique(boundary.edges.begin(), boundary.edges.end()),
                          boundary.edges.end());
-    link_faces(geometry_, std::move(edges), std::move(singles), threads_, boundary);
+    link_faces(geometry_, std::move(edges), std::move(singles), boundary);
     boundary.statistics.pieces = statistics_pieces_;
     boundary.statistics.tiers = statistics_;
     return boundary;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Equality of solids, with a witness where they differ.
 #include "exactcsg/solid/classify.hpp"
+#include "exactcsg/solid/face_planes.hpp"
 
 namespace exactcsg {
 
@@ -10,7 +11,7 @@ bool same_boundary(const Boundary& a, const Boundary& b) {
   const auto same_face = [](const BoundaryFace& p, const BoundaryFace& q) {
     return p.plane == q.plane && p.loops == q.loops;
   };
-  return a.vertices == b.vertices && a.edges == b.edges && a.planes == b.planes &&
+  return a.vertices == b.vertices && a.edges == b.edges &&
          std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), same_face);
 }
 
@@ -29,7 +30,7 @@ std::optional<Point3> point_behind(const Solid& solid, const Boundary& boundary,
   const Point3& corner = boundary.vertices[loop[0]];
   const Vector3 along = boundary.vertices[loop[1]] - corner;
   const Vector3 back = boundary.vertices[loop.back()] - corner;
-  const Plane& plane = boundary.planes[face.plane];
+  const Plane plane = exact_plane(boundary, face);
   const Vector3 normal{plane.a, plane.b, plane.c};
   const Rational reach = dot(along, along) + dot(back, back);
   const Rational unit = reach / (1 + dot(normal, normal));

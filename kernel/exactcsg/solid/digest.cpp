@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
-#include <functional>
 #include <numeric>
 #include <string>
 #include <string_view>
 
 #include "exactcsg/solid/boundary.hpp"
-#include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/solid/numbered_sides.hpp"
 
 namespace exactcsg {
 
@@ -123,46 +122,6 @@ std::vector<std::uint32_t> inverse_of(const std::vector<std::uint32_t>& order) {
   return rank;
 }
 
-// The planes that carry a face, sorted and distinct, and for every plane of the boundary its place.
-struct UsedPlanes {
-  std::vector<const Plane*> planes;
-  std::vector<std::uint32_t> place;
-};
-
-UsedPlanes planes_of_faces(const Boundary& boundary) {
-  std::vector<bool> used(boundary.planes.size(), false);
-  for (const BoundaryFace& face : boundary.faces) used[face.plane] = true;
-  UsedPlanes result{{}, std::vector<std::uint32_t>(boundary.planes.size(), 0)};
-  for (const std::uint32_t i : sorted_order(
-           boundary.planes, [](const Plane&p, const Plane&q) { return compare(p, q) < 0; })) {
-    if (!used[i]) continue;
-    if (result.planes.empty() || !(*result.planes.back() == boundary.planes[i])) {
-      result.planes.push_back(&boundary.planes[i]);
-    }
-    result.place[i] = static_cast<std::uint32_t>(result.planes.size() - 1);
-  }
-  return result;
-}
-
-// The sides of all faces: plane, from, to. Does not depend on how loops are split or where they
-// start.
-std::vector<std::array<std::uint32_t, 3>> sides_of_faces(const Boundary& boundary,
-                                                         const std::vector<std::uint32_t>& rank,
-                                                         const UsedPlanes& planes) {
-  std::vector<std::array<std::uint32_t, 3>> sides;
-  for (const BoundaryFace& face : boundary.faces) {
-    for (const std::vector<std::uint32_t>& loop : face.loops) {
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        sides.push_back(
-            {planes.place[face.plane], rank[loop[k]], rank[loop[(k + 1) % loop.size()]]});
-      }
-    }
-  }
-  sort_in_buckets(
-      sides, planes.planes.size(), [](const auto& side) { return side[0]; }, std::less<>());
-  return sides;
-}
-
 }  // namespace
 
 std::string digest(const Boundary& boundary) {
@@ -170,7 +129,7 @@ std::string digest(const Boundary& boundary) {
   const auto section = [&text](std::string_view name, std::size_t count) {
     text << name << ' ' << std::uint64_t{count} << '\n';
   };
-  text << "exactcsg.boundary/2\n";
+  text << "exactcsg.boundary/3\n";
   section("vertices", boundary.vertices.size());
   const std::vector<std::uint32_t> order = sorted_order(
       boundary.vertices, [](const Point3& p, const Point3& q) { return compare(p, q) < 0; });
@@ -191,13 +150,8 @@ std::string digest(const Boundary& boundary) {
     text << std::uint64_t{e.from} << ' ' << std::uint64_t{e.to} << '\n';
   }
 
-  const UsedPlanes planes = planes_of_faces(boundary);
-  section("planes", planes.planes.size());
-  for (const Plane* p : planes.planes) {
-    text << p->a << ' ' << p->b << ' ' << p->c << ' ' << p->d << '\n';
-  }
-
-  const std::vector<std::array<std::uint32_t, 3>> sides = sides_of_faces(boundary, rank, planes);
+  const std::vector<NumberedSide> sides = numbered_sides(boundary, rank);
+  section("planes", sides.empty() ? 0 : std::size_t{sides.back()[0]} + 1);
   section("sides", sides.size());
   for (const auto& [plane, from, to] : sides) {
     text << std::uint64_t{plane} << ' ' << std::uint64_t{from} << ' ' << std::uint64_t{to} << '\n';

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/solid/measures.hpp"
 #include "exactcsg/solid/scaled_vertices.hpp"
 #include "exactcsg/support/error.hpp"
@@ -89,16 +90,35 @@ Sums<N> projected_sums(const Boundary& boundary, const BoundaryFace& face, std::
   return total;
 }
 
-Rational face_volume(const Boundary& boundary, const BoundaryFace& face, std::size_t bit_limit) {
-  const LocalPlane plane = local_plane(boundary.planes[face.plane], boundary.vertices.front());
+struct PlanarFace {
+  const BoundaryFace* face;
+  const Plane* plane;
+};
+
+// By the coefficients of their planes: what neighbours add has common denominators, and sums stay
+// short.
+std::vector<PlanarFace> faces_by_plane(const Boundary& boundary, const std::vector<Plane>& planes) {
+  std::vector<PlanarFace> faces;
+  faces.reserve(boundary.faces.size());
+  for (const BoundaryFace& face : boundary.faces) faces.push_back({&face, &planes[face.plane]});
+  std::stable_sort(faces.begin(), faces.end(), [](const PlanarFace& a, const PlanarFace& b) {
+    return compare(*a.plane, *b.plane) < 0;
+  });
+  return faces;
+}
+
+Rational face_volume(const Boundary& boundary, const PlanarFace& planar, std::size_t bit_limit) {
+  const BoundaryFace& face = *planar.face;
+  const LocalPlane plane = local_plane(*planar.plane, boundary.vertices.front());
   if (plane.offset == 0) return 0;
   const Sums<1> sums = projected_sums<1>(boundary, face, plane.k, bit_limit);
   return -plane.offset * sums[0] / (6 * *plane.normal[plane.k]);
 }
 
 // Volume and first moments of the cone from the reference.
-Sums<4> face_moments(const Boundary& boundary, const BoundaryFace& face, std::size_t bit_limit) {
-  const LocalPlane plane = local_plane(boundary.planes[face.plane], boundary.vertices.front());
+Sums<4> face_moments(const Boundary& boundary, const PlanarFace& planar, std::size_t bit_limit) {
+  const BoundaryFace& face = *planar.face;
+  const LocalPlane plane = local_plane(*planar.plane, boundary.vertices.front());
   if (plane.offset == 0) return {};
   const std::size_t k = plane.k;
   const std::size_t u = (k + 1) % 3;
@@ -130,8 +150,10 @@ std::optional<Rational> exact_volume(const Boundary& boundary, std::size_t bit_l
     return within(enclose_volume(boundary, any_bits).lower, bit_limit);
   }
   try {
-    return add_up<1>(0, boundary.faces.size(), bit_limit, [&](std::size_t f) {
-      return Sums<1>{face_volume(boundary, boundary.faces[f], bit_limit)};
+    const std::vector<Plane> planes = exact_planes(boundary);
+    const std::vector<PlanarFace> faces = faces_by_plane(boundary, planes);
+    return add_up<1>(0, faces.size(), bit_limit, [&](std::size_t f) {
+      return Sums<1>{face_volume(boundary, faces[f], bit_limit)};
     })[0];
   } catch (const TooLong&) {
     return std::nullopt;
@@ -139,10 +161,13 @@ std::optional<Rational> exact_volume(const Boundary& boundary, std::size_t bit_l
 }
 
 std::optional<Rational> exact_area(const Boundary& boundary, std::size_t bit_limit) {
-  std::vector<Rational> stretch(boundary.planes.size());  // |n| / n_k
+  std::vector<Plane> planes(boundary.plane_count);
+  std::vector<Rational> stretch(boundary.plane_count);  // |n| / n_k
   for (const BoundaryFace& face : boundary.faces) {
     if (stretch[face.plane] != 0) continue;
-    const Plane& plane = boundary.planes[face.plane];
+    // One by one: nearly always the first says that there is no exact area.
+    Plane& plane = planes[face.plane];
+    plane = exact_plane(boundary, face);
     const Integer square = plane.a * plane.a + plane.b * plane.b + plane.c * plane.c;
     if (mpz_perfect_square_p(square.get_mpz_t()) == 0) return std::nullopt;
     const LocalPlane local = local_plane(plane, boundary.vertices.front());
@@ -155,9 +180,10 @@ std::optional<Rational> exact_area(const Boundary& boundary, std::size_t bit_lim
     if (area.lower == area.upper) return within(area.lower, bit_limit);
   }
   try {
-    return add_up<1>(0, boundary.faces.size(), bit_limit, [&](std::size_t f) {
-      const BoundaryFace& face = boundary.faces[f];
-      const std::size_t k = local_plane(boundary.planes[face.plane], boundary.vertices.front()).k;
+    const std::vector<PlanarFace> faces = faces_by_plane(boundary, planes);
+    return add_up<1>(0, faces.size(), bit_limit, [&](std::size_t f) {
+      const BoundaryFace& face = *faces[f].face;
+      const std::size_t k = local_plane(*faces[f].plane, boundary.vertices.front()).k;
       const Sums<1> sums = projected_sums<1>(boundary, face, k, bit_limit);
       return Sums<1>{Rational(sums[0] * stretch[face.plane] / 2)};
     })[0];
@@ -176,8 +202,10 @@ std::optional<Point3> exact_centroid(const Boundary& boundary, std::size_t bit_l
     return Point3{centroid[0].lower, centroid[1].lower, centroid[2].lower};
   }
   try {
-    const Sums<4> sums = add_up<4>(0, boundary.faces.size(), bit_limit, [&](std::size_t f) {
-      return face_moments(boundary, boundary.faces[f], bit_limit);
+    const std::vector<Plane> planes = exact_planes(boundary);
+    const std::vector<PlanarFace> faces = faces_by_plane(boundary, planes);
+    const Sums<4> sums = add_up<4>(0, faces.size(), bit_limit, [&](std::size_t f) {
+      return face_moments(boundary, faces[f], bit_limit);
     });
     const Point3& o = boundary.vertices.front();
     return Point3{o.x + sums[1] / sums[0], o.y + sums[2] / sums[0], o.z + sums[3] / sums[0]};

@@ -2,13 +2,11 @@
 #include "exactcsg/solid/face_loops.hpp"
 
 #include <algorithm>
-#include <map>
-#include <numeric>
+#include <limits>
 #include <span>
 #include <tuple>
 
 #include "exactcsg/solid/bucket_sort.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -42,8 +40,9 @@ void start_at_smallest(Loop& loop) {
 
 class LoopLinker {
  public:
-  LoopLinker(const Plane& plane, const std::vector<Point3>& vertices, std::span<FaceEdge> edges)
-      : plane_(plane), vertices_(vertices), edges_(edges), used_(edges.size(), false) {
+  LoopLinker(const Geometry& geometry, const std::vector<Point3>& vertices,
+             std::span<FaceEdge> edges)
+      : geometry_(geometry), vertices_(vertices), edges_(edges), used_(edges.size(), false) {
     std::sort(edges_.begin(), edges_.end(), [](const FaceEdge& a, const FaceEdge& b) {
       return std::tie(a.from, a.to) < std::tie(b.from, b.to);
     });
@@ -91,8 +90,10 @@ class LoopLinker {
   }
 
   int turn(const Vector3& u, const Vector3& v) const {
+    const OrientedPlaneRef oriented = edges_.front().plane;
+    const Plane& plane = geometry_.exact_plane(oriented.plane);
     const Vector3 w = cross(u, v);
-    return sgn(Rational(plane_.a * w.x + plane_.b * w.y + plane_.c * w.z));
+    return oriented.sense * sgn(Rational(plane.a * w.x + plane.b * w.y + plane.c * w.z));
   }
 
   // 0: less than half a turn clockwise from `back`, 1: half a turn, 2: more, 3: a full turn.
@@ -110,16 +111,26 @@ class LoopLinker {
     return turn(v, w) < 0;
   }
 
-  const Plane& plane_;
+  const Geometry& geometry_;
   const std::vector<Point3>& vertices_;
   std::span<FaceEdge> edges_;
   std::vector<bool> used_;
 };
 
+void number_planes_by_first_face(std::uint32_t planes, std::vector<BoundaryFace>& faces) {
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(planes, none);
+  std::uint32_t used = 0;
+  for (BoundaryFace& face : faces) {
+    if (number[face.plane] == none) number[face.plane] = used++;
+    face.plane = number[face.plane];
+  }
+}
+
 }  // namespace
 
 void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges,
-                std::vector<SingleFace> singles, unsigned threads, Boundary& boundary) {
+                std::vector<SingleFace> singles, Boundary& boundary) {
   // No face lies in a wall.
   sort_in_buckets(
       edges, geometry.plane_count(),
@@ -127,54 +138,31 @@ void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges,
       [](const FaceEdge& a, const FaceEdge& b) {
         return std::tie(a.plane, a.face) < std::tie(b.plane, b.face);
       });
-  std::vector<OrientedPlaneRef> oriented;
-  for (const FaceEdge& edge : edges) {
-    if (oriented.empty() || oriented.back() != edge.plane) oriented.push_back(edge.plane);
-  }
-  const std::size_t planes_of_edges = oriented.size();
-  for (const SingleFace& face : singles) oriented.push_back(face.plane);
-  std::vector<Plane> planes(oriented.size());
-  in_parallel(threads, oriented.size(), [&](std::size_t i) {
-    planes[i] = geometry.exact_plane_once(oriented[i].plane);
-    if (oriented[i].sense < 0) planes[i] = opposite(planes[i]);
-  });
   std::vector<BoundaryFace> faces;
-  std::uint32_t plane = 0;
+  std::uint32_t planes = 0;
   for (std::size_t begin = 0; begin < edges.size();) {
     std::size_t end = begin;
     while (end < edges.size() && edges[end].plane == edges[begin].plane &&
            edges[end].face == edges[begin].face) {
       ++end;
     }
-    if (oriented[plane] != edges[begin].plane) ++plane;
-    BoundaryFace face;
-    face.plane = plane;
-    face.loops =
-        LoopLinker(planes[plane], boundary.vertices, std::span(edges).subspan(begin, end - begin))
-            .link();
-    faces.push_back(std::move(face));
+    if (begin == 0 || edges[begin].plane != edges[begin - 1].plane) ++planes;
+    LoopLinker linker(geometry, boundary.vertices, std::span(edges).subspan(begin, end - begin));
+    faces.push_back({planes - 1, linker.link()});
     begin = end;
   }
-  for (std::size_t i = 0; i < singles.size(); ++i) {
-    start_at_smallest(singles[i].loop);
-    faces.push_back({static_cast<std::uint32_t>(planes_of_edges + i), {}});
-    faces.back().loops.push_back(std::move(singles[i].loop));
+  for (SingleFace& face : singles) {
+    start_at_smallest(face.loop);
+    faces.push_back({planes++, {}});
+    faces.back().loops.push_back(std::move(face.loop));
   }
-  std::vector<std::uint32_t> order(planes.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return compare(planes[a], planes[b]) < 0; });
-  std::vector<std::uint32_t> place(planes.size());
-  boundary.planes.clear();
-  for (const std::uint32_t p : order) {
-    place[p] = static_cast<std::uint32_t>(boundary.planes.size());
-    boundary.planes.push_back(std::move(planes[p]));
-  }
-  for (BoundaryFace& face : faces) face.plane = place[face.plane];
-  std::sort(faces.begin(), faces.end(), [](const BoundaryFace& a, const BoundaryFace& b) {
-    return std::tie(a.plane, a.loops) < std::tie(b.plane, b.loops);
-  });
+  sort_in_buckets(
+      faces, boundary.vertices.size(),
+      [](const BoundaryFace& face) { return face.loops.front().front(); },
+      [](const BoundaryFace& a, const BoundaryFace& b) { return a.loops < b.loops; });
+  number_planes_by_first_face(planes, faces);
   boundary.faces = std::move(faces);
+  boundary.plane_count = planes;
 }
 
 }  // namespace exactcsg

@@ -25,12 +25,11 @@ struct SingleFace {
   std::vector<std::uint32_t> loop;  // indices of the boundary's vertices, from any of them
 };
 
-// Sets boundary.planes and boundary.faces. Where a face touches itself at a vertex, its interior is
-// kept connected on the left of each passage.
-// REQUIRES no edge lies in the plane of a single face.
-// REQUIRES boundary.vertices and approximate are set.
-// THROWS Error(InternalError) if edges do not balance at some vertex of a face.
+// Sets boundary.faces and boundary.plane_count. Where a face touches itself at a vertex, its
+// interior is kept connected on the left of each passage. REQUIRES no edge lies in the plane of a
+// single face. REQUIRES boundary.vertices and approximate are set. THROWS Error(InternalError) if
+// edges do not balance at some vertex of a face.
 void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges,
-                std::vector<SingleFace> singles, unsigned threads, Boundary& boundary);
+                std::vector<SingleFace> singles, Boundary& boundary);
 
 }  // namespace exactcsg

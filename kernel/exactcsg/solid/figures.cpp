@@ -6,6 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include "exactcsg/solid/numbered_sides.hpp"
+
 namespace exactcsg {
 
 namespace {
@@ -29,13 +31,20 @@ class Refinement {
 constexpr int maximal_bits = 5000;
 constexpr std::size_t exact_bits_to_break_ties = 1U << 16U;
 
+// Partial sums may be so much longer than the sum itself, as those of cooling_tower.csg are.
+constexpr std::size_t longer_on_the_way = 16;
+
 int first_bits_for(int digits) { return 32 + (digits * 10 + 2) / 3; }
 
 // The enclosure, which is asked for anyway, is often exact already.
 std::optional<Rational> volume_within(Refinement& refinement, int digits, std::size_t bit_limit) {
   const Enclosure& volume = refinement.at(first_bits_for(digits)).volume;
-  if (volume.lower != volume.upper) return exact_volume(refinement.boundary(), bit_limit);
-  const Rational& exact = volume.lower;
+  std::optional<Rational> found = volume.lower;
+  if (volume.lower != volume.upper) {
+    found = exact_volume(refinement.boundary(), longer_on_the_way * bit_limit);
+  }
+  if (!found) return std::nullopt;
+  const Rational& exact = *found;
   const std::size_t bits =
       std::max(mpz_sizeinbase(exact.get_num_mpz_t(), 2), mpz_sizeinbase(exact.get_den_mpz_t(), 2));
   if (bits > bit_limit) return std::nullopt;
@@ -86,92 +95,48 @@ struct Mirror {
     if (coordinates[2]) image.z = twice_centre.z - p.z;
     return image;
   }
-  Plane operator()(const Plane& p) const {
-    std::array<Rational, 3> normal{p.a, p.b, p.c};
-    Rational offset = p.d;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!coordinates[i]) continue;
-      offset += normal[i] * coordinate(twice_centre, i);
-      normal[i] = -normal[i];
-    }
-    return make_plane(normal[0], normal[1], normal[2], offset);
-  }
   bool turns_inside_out() const { return (coordinates[0] != coordinates[1]) != coordinates[2]; }
 };
 
-// The indices of the images in a sorted list, or nullopt if one of them is not there.
-// precedes(i, target): items[i] comes before the target.
-template <class T, class Precedes>
-std::optional<std::vector<std::uint32_t>> image_of(const std::vector<T>& items,
-                                                   const Mirror& mirror, const Precedes& precedes) {
-  const auto less = [](const T& p, const T& q) { return compare(p, q) < 0; };
-  if (!std::is_sorted(items.begin(), items.end(), less)) return std::nullopt;
-  std::vector<std::uint32_t> image;
-  image.reserve(items.size());
-  std::vector<std::uint32_t> indices(items.size());
-  std::iota(indices.begin(), indices.end(), 0U);
-  for (const T& item : items) {
-    const T target = mirror(item);
-    const auto before = precedes(target);
-    const auto at = std::partition_point(indices.begin(), indices.end(), before);
-    if (at == indices.end() || !(items[*at] == target)) return std::nullopt;
-    image.push_back(*at);
-  }
-  return image;
-}
-
+// The images of the vertices, as indices, or nullopt if one of them is no vertex.
 std::optional<std::vector<std::uint32_t>> image_of_vertices(const Boundary& boundary,
                                                             const Mirror& mirror) {
-  // Rounding to nearest is monotone: only equal doubles leave the order open.
-  const auto precedes = [&](const Point3& target) {
+  if (boundary.approximate.size() != boundary.vertices.size()) return std::nullopt;
+  if (!std::is_sorted(boundary.vertices.begin(), boundary.vertices.end())) return std::nullopt;
+  std::vector<std::uint32_t> image;
+  image.reserve(boundary.vertices.size());
+  for (const Point3& vertex : boundary.vertices) {
+    const Point3 target = mirror(vertex);
     const std::array<double, 3> near{nearest_double(target.x), nearest_double(target.y),
                                      nearest_double(target.z)};
-    return [&boundary, &target, near](std::uint32_t v) {
+    // Rounding to nearest is monotone: only equal doubles leave the order open.
+    const auto precedes = [&](const Point3& candidate) {
+      const auto& mine =
+          boundary.approximate[static_cast<std::size_t>(&candidate - boundary.vertices.data())];
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double mine = boundary.approximate[v][axis];
-        if (mine != near[axis]) return mine < near[axis];
-        const int order = cmp(coordinate(boundary.vertices[v], axis), coordinate(target, axis));
+        if (mine[axis] != near[axis]) return mine[axis] < near[axis];
+        const int order = cmp(coordinate(candidate, axis), coordinate(target, axis));
         if (order != 0) return order < 0;
       }
       return false;
     };
-  };
-  if (boundary.approximate.size() != boundary.vertices.size()) return std::nullopt;
-  return image_of(boundary.vertices, mirror, precedes);
-}
-
-std::optional<std::vector<std::uint32_t>> image_of_planes(const Boundary& boundary,
-                                                          const Mirror& mirror) {
-  return image_of(boundary.planes, mirror, [&](const Plane& target) {
-    return [&](std::uint32_t p) { return compare(boundary.planes[p], target) < 0; };
-  });
-}
-
-// The mirror maps the solid to itself: its vertices are, and the sides of its faces with their
-// planes.
-bool symmetric(const Boundary& boundary, const Mirror& mirror) {
-  const auto vertices = image_of_vertices(boundary, mirror);
-  if (!vertices) return false;
-  const auto planes = image_of_planes(boundary, mirror);
-  if (!planes) return false;
-  const bool reversed = mirror.turns_inside_out();
-  std::vector<std::array<std::uint32_t, 3>> sides;
-  std::vector<std::array<std::uint32_t, 3>> images;
-  for (const BoundaryFace& face : boundary.faces) {
-    for (const auto& loop : face.loops) {
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        const std::uint32_t from = loop[k];
-        const std::uint32_t to = loop[(k + 1) % loop.size()];
-        const std::uint32_t tail = (*vertices)[from];
-        const std::uint32_t head = (*vertices)[to];
-        sides.push_back({face.plane, from, to});
-        images.push_back({(*planes)[face.plane], reversed ? head : tail, reversed ? tail : head});
-      }
-    }
+    const auto at =
+        std::partition_point(boundary.vertices.begin(), boundary.vertices.end(), precedes);
+    if (at == boundary.vertices.end() || !(*at == target)) return std::nullopt;
+    image.push_back(static_cast<std::uint32_t>(at - boundary.vertices.begin()));
   }
-  std::sort(sides.begin(), sides.end());
-  std::sort(images.begin(), images.end());
-  return sides == images;
+  return image;
+}
+
+// The mirror maps the solid to itself: its vertices are, and the sides of its faces plane by plane.
+bool symmetric(const Boundary& boundary, const Mirror& mirror) {
+  const auto image = image_of_vertices(boundary, mirror);
+  if (!image) return false;
+  std::vector<std::uint32_t> identity(boundary.vertices.size());
+  std::iota(identity.begin(), identity.end(), 0U);
+  return numbered_sides(boundary, identity) ==
+         numbered_sides(boundary, *image,
+                        mirror.turns_inside_out() ? SideDirection::Reversed : SideDirection::Kept);
 }
 
 // Coordinates of the centre of mass that a symmetry about the middle of the bounding box proves.

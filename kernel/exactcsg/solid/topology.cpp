@@ -20,6 +20,7 @@
 
 #include "exactcsg/solid/boundary.hpp"
 #include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/solid/scaled_vertices.hpp"
 #include "exactcsg/support/error.hpp"
 
@@ -115,8 +116,8 @@ class OutlineRepair {
  private:
   void repair(const std::vector<std::pair<std::uint64_t, Index>>& corners) {
     const Index vertex = static_cast<Index>(corners.front().first);
-    const Plane& plane =
-        boundary_.planes[boundary_.faces[surface_.sides[corners.front().second].face].plane];
+    const Plane plane =
+        exact_plane(boundary_, boundary_.faces[surface_.sides[corners.front().second].face]);
     const std::array<const Integer*, 3> normal{&plane.a, &plane.b, &plane.c};
     std::size_t k = 0;
     while (sgn(*normal[k]) == 0) ++k;
@@ -249,7 +250,7 @@ class Twins {
 
     std::vector<std::array<Integer, 3>> normals;
     for (const Index s : group) {
-      const Plane& plane = boundary_.planes[boundary_.faces[surface_.sides[s].face].plane];
+      const Plane plane = exact_plane(boundary_, boundary_.faces[surface_.sides[s].face]);
       if (ascending(s)) {
         normals.push_back({plane.a, plane.b, plane.c});
       } else {

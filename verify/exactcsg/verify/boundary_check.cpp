@@ -7,6 +7,7 @@
 #include <map>
 
 #include "exactcsg/number/enclosure.hpp"
+#include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/solid/measures.hpp"
 #include "exactcsg/support/error.hpp"
 #include "exactcsg/verify/facet_complex.hpp"
@@ -29,7 +30,7 @@ bool check_indices(const Boundary& b, Check& check) {
     }
   }
   for (std::size_t f = 0; f < b.faces.size(); ++f) {
-    if (b.faces[f].plane >= b.planes.size()) {
+    if (b.faces[f].plane >= b.plane_count) {
       add_mismatch(check, {fmt::format("face {} names plane {}", f, b.faces[f].plane), {}});
     }
     for (const auto& loop : b.faces[f].loops) {
@@ -58,10 +59,6 @@ void check_order(const Boundary& b, Check& check) {
                            {b.approximate[i]}});
     }
   }
-  for (std::size_t i = 1; i < b.planes.size(); ++i) {
-    if (compare(b.planes[i - 1], b.planes[i]) < 0) continue;
-    add_mismatch(check, {"planes not sorted and distinct: " + describe(b.planes[i]), {}});
-  }
   for (std::size_t i = 0; i < b.edges.size(); ++i) {
     const BoundaryEdge& edge = b.edges[i];
     if (edge.from < edge.to && (i == 0 || b.edges[i - 1] < edge)) continue;
@@ -71,20 +68,51 @@ void check_order(const Boundary& b, Check& check) {
   }
 }
 
-void check_plane_values(const Boundary& b, Check& check) {
-  for (const Plane& plane : b.planes) {
-    const bool has_normal = plane.a != 0 || plane.b != 0 || plane.c != 0;
-    const Integer common = gcd(gcd(plane.a, plane.b), gcd(plane.c, plane.d));
-    if (has_normal && common == 1) continue;
-    add_mismatch(check, {"plane without normal or not coprime: " + describe(plane), {}});
+void check_order_of_faces(const Boundary& b, Check& check) {
+  const auto where = [&](const BoundaryFace& face) -> std::vector<std::array<double, 3>> {
+    if (face.loops.empty() || face.loops.front().empty()) return {};
+    return {approximate(b.vertices[face.loops.front().front()])};
+  };
+  std::uint32_t next_plane = 0;
+  for (std::size_t f = 0; f < b.faces.size(); ++f) {
+    const BoundaryFace& face = b.faces[f];
+    if (f > 0 && !(b.faces[f - 1].loops < face.loops)) {
+      add_mismatch(check, {fmt::format("face {} is not sorted by its loops", f), where(face)});
+    }
+    if (face.plane > next_plane) {
+      add_mismatch(check, {fmt::format("the plane of face {} is not numbered by its first face", f),
+                           where(face)});
+    }
+    next_plane = std::max(next_plane, face.plane + 1);
+  }
+}
+
+// By number: each has a face and a normal, and no two are the same.
+void check_planes(const Boundary& b, const std::vector<Plane>& planes, Check& check) {
+  std::vector<bool> used(planes.size(), false);
+  for (const BoundaryFace& face : b.faces) used[face.plane] = true;
+  const auto earlier = [](const Plane& p, const Plane& q) { return compare(p, q) < 0; };
+  std::map<Plane, std::size_t, decltype(earlier)> known(earlier);
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    const Plane& plane = planes[p];
+    if (!used[p]) {
+      add_mismatch(check, {fmt::format("plane {} of no face", p), {}});
+    } else if (plane.a == 0 && plane.b == 0 && plane.c == 0) {
+      add_mismatch(check,
+                   {fmt::format("plane {}: a face that does not turn at its corner", p), {}});
+    } else if (const auto [first, is_new] = known.emplace(plane, p); !is_new) {
+      add_mismatch(check, {fmt::format("planes {} and {} are the same: {}", first->second, p,
+                                       describe(plane)),
+                           {}});
+    }
   }
 }
 
 // The area of a face as a multiple of its normal, positive if the loops turn counter-clockwise; and
 // whether every loop is a cycle of at least three vertices in the plane.
-void check_face(const Boundary& b, std::size_t f, Check& check) {
+void check_face(const Boundary& b, const std::vector<Plane>& planes, std::size_t f, Check& check) {
   const BoundaryFace& face = b.faces[f];
-  const Plane& plane = b.planes[face.plane];
+  const Plane& plane = planes[face.plane];
   Rational total = 0;
   std::size_t outer = 0;
   for (const auto& loop : face.loops) {
@@ -178,11 +206,6 @@ void check_vertices(const Boundary& b, Check& check) {
         check, {"vertex where edges of fewer than two directions meet: " + describe(b.vertices[v]),
                 {approximate(b.vertices[v])}});
   }
-  std::vector<bool> used(b.planes.size(), false);
-  for (const BoundaryFace& face : b.faces) used[face.plane] = true;
-  for (std::size_t p = 0; p < used.size(); ++p) {
-    if (!used[p]) add_mismatch(check, {"plane of no face: " + describe(b.planes[p]), {}});
-  }
 }
 
 Check figure(const std::string& name) {
@@ -204,8 +227,10 @@ Check check_boundary_laws(const Boundary& boundary) {
       "vertices / edges / faces: sorted, planar, balanced, oriented, no straight vertex";
   if (check_indices(boundary, check)) {
     check_order(boundary, check);
-    check_plane_values(boundary, check);
-    for (std::size_t f = 0; f < boundary.faces.size(); ++f) check_face(boundary, f, check);
+    check_order_of_faces(boundary, check);
+    const std::vector<Plane> planes = exact_planes(boundary);
+    check_planes(boundary, planes, check);
+    for (std::size_t f = 0; f < boundary.faces.size(); ++f) check_face(boundary, planes, f, check);
     check_balance(boundary, check);
     check_vertices(boundary, check);
   }

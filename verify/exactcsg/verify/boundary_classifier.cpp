@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/support/error.hpp"
 #include "exactcsg/verify/facet_complex.hpp"
 
@@ -73,11 +74,12 @@ Rational value_at(const Plane& plane, const Point3& p) {
 
 struct BoundaryClassifier::Data {
   const Boundary& boundary;
+  const std::vector<Plane> planes;
   double slack = 0;                             // of doubles, relative to the size of the model
   std::vector<Rectangle> boxes;                 // of each face in space
   std::vector<std::vector<Rectangle>> shadows;  // of each face along each direction
 
-  explicit Data(const Boundary& b) : boundary(b) {
+  explicit Data(const Boundary& b) : boundary(b), planes(exact_planes(b)) {
     double size = 0;
     for (const Point3& p : b.vertices) {
       for (const double c : approximate(p)) size = std::max(size, std::abs(c));
@@ -110,7 +112,7 @@ struct BoundaryClassifier::Data {
     for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
       if (!boxes[f].has(0, at[0]) || !boxes[f].has(1, at[1]) || !boxes[f].has(2, at[2])) continue;
       const BoundaryFace& face = boundary.faces[f];
-      const Plane& plane = boundary.planes[face.plane];
+      const Plane& plane = planes[face.plane];
       if (side(plane, p) != Sign::Zero) continue;
       if (locate(boundary, face, p, dropped_axis(plane)) != Place::Outside) return true;
     }
@@ -127,7 +129,7 @@ struct BoundaryClassifier::Data {
       const Rectangle& box = shadows[f][d];
       if (!box.has(0, shadow[0]) || !box.has(1, shadow[1]) || boxes[f].high[0] < at[0]) continue;
       const BoundaryFace& face = boundary.faces[f];
-      const Plane& plane = boundary.planes[face.plane];
+      const Plane& plane = planes[face.plane];
       const Rational speed = plane.a * ray.x + plane.b * ray.y + plane.c * ray.z;
       const Rational value = value_at(plane, p);
       if (speed == 0) {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "exactcsg/number/enclosure.hpp"
+#include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/verify/exact_sums.hpp"
 
 namespace exactcsg::verify {
@@ -202,7 +203,7 @@ CanonicalSets canonical_sets(const Boundary& boundary) {
     sets.edges.push_back(p < q ? ExactEdge{p, q} : ExactEdge{q, p});
   }
   for (const BoundaryFace& face : boundary.faces) {
-    sets.planes.push_back(boundary.planes.at(face.plane));
+    sets.planes.push_back(exact_plane(boundary, face));
   }
   sort_sets(sets);
   return sets;

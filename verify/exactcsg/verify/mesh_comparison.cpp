@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "exactcsg/number/enclosure.hpp"
+#include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/solid/measures.hpp"
 #include "exactcsg/support/error.hpp"
 #include "exactcsg/verify/exact_sums.hpp"
@@ -109,13 +110,17 @@ class PointGrid {
 
 struct Ours {
   const Boundary& boundary;
+  std::vector<Plane> planes;
   std::vector<PlainVector> positions;
   std::vector<std::vector<std::uint32_t>> edges_at;  // of each vertex
   std::vector<std::vector<std::uint32_t>> faces_at;  // of each edge
   std::set<std::uint32_t> crowded_edges;             // edges with more than two faces
 
   explicit Ours(const Boundary& b)
-      : boundary(b), edges_at(b.vertices.size()), faces_at(b.edges.size()) {
+      : boundary(b),
+        planes(exact_planes(b)),
+        edges_at(b.vertices.size()),
+        faces_at(b.edges.size()) {
     for (const Point3& p : b.vertices) positions.push_back(approximate(p));
     std::map<MeshEdge, std::uint32_t> index;
     for (std::size_t e = 0; e < b.edges.size(); ++e) {
@@ -143,7 +148,7 @@ struct Ours {
 
 // Is p within `reach` of the face: of its plane, and its projection inside the loops?
 bool near_face(const Ours& ours, const BoundaryFace& face, const PlainVector& p, double reach) {
-  const Plane& plane = ours.boundary.planes[face.plane];
+  const Plane& plane = ours.planes[face.plane];
   const PlainVector raw{plane.a.get_d(), plane.b.get_d(), plane.c.get_d()};
   const double size = length(raw);
   if (!(size > 0) || !std::isfinite(size) || face.loops.empty()) return false;

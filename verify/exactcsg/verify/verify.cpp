@@ -126,7 +126,7 @@ class Verification {
       if (edge.from >= n || edge.to >= n) return false;
     }
     for (const BoundaryFace& face : boundary_.faces) {
-      if (face.plane >= boundary_.planes.size() || face.loops.empty()) return false;
+      if (face.plane >= boundary_.plane_count || face.loops.empty()) return false;
       for (const auto& loop : face.loops) {
         if (loop.empty()) return false;
         for (const std::uint32_t v : loop) {

@@ -9,6 +9,7 @@
 
 #include "exactcsg/io/mesh/mesh_file.hpp"
 #include "exactcsg/io/planar/constrained_triangulation.hpp"
+#include "exactcsg/solid/face_planes.hpp"
 
 namespace exactcsg::io {
 
@@ -41,7 +42,7 @@ class FaceTriangulator {
       : boundary_(boundary), triangles_(triangles) {}
 
   void add(const BoundaryFace& face) {
-    projection_ = projection_of(boundary_.planes[face.plane]);
+    projection_ = projection_of(exact_plane(boundary_, face));
     if (face.loops.size() == 1 && is_strictly_convex(face.loops[0])) {
       const auto& loop = face.loops[0];
       for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
