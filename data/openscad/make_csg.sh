@@ -37,6 +37,8 @@ for name in "$@"; do
     status=1
     continue
   fi
+  # When a file that a model names was last touched is no part of the model.
+  sed -i "s/timestamp = [0-9]*/timestamp = 0/" "$made"
   kept="$here/$name.csg"
   if [ -f "$kept" ] && cmp -s "$made" "$kept"; then continue; fi
   if [ -f "$kept" ]; then echo "changed $name"; else echo "new $name"; fi

@@ -119,7 +119,7 @@ TEST_F(OpenscadFiles, ErrorsInSourcesAreShown) {
             ErrorId::OracleFailed);
   EXPECT_EQ(refusal(write("syntax.scad", "cube(")), ErrorId::OracleFailed);
   EXPECT_EQ(refusal(write("-o.scad", "cube(")), ErrorId::OracleFailed);
-  EXPECT_EQ(refusal(write("node.scad", "minkowski() { cube(); sphere(); }")),
+  EXPECT_EQ(refusal(write("node.scad", "linear_extrude(1) text(\"a\");")),
             ErrorId::UnsupportedNode);
 }
 

@@ -80,6 +80,37 @@ TEST(OpenscadGrid, RoundsCrossingsAsTheClippingLibraryDoes) {
   }
 }
 
+TEST(OpenscadGrid, OffsetsAsTheClippingLibraryDoes) {
+  const auto found = corners(
+      "linear_extrude(height = 1) { offset(r = 2, $fn = 20) { square(size = [10, 10]); } }");
+  EXPECT_EQ(found.size(), 48U);
+  EXPECT_THAT(found, testing::IsSupersetOf({on_grid(-124657 * 16, -40503 * 16, 0),
+                                            on_grid(-124657 * 16, 695863 * 16, 0),
+                                            on_grid(-106039 * 16, -38521 * 32, 1048576)}));
+}
+
+// A cube that is turned and cut has faces of two triangles, which a section shows.
+TEST(OpenscadGrid, CutsBodiesBeforeTheirSections) {
+  EXPECT_EQ(corners("linear_extrude(height = 1) { projection(cut = true) { " + turn +
+                    "{ multmatrix([[1,0,0,0],[0,0.8,-0.6,0],[0,0.6,0.8,0],[0,0,0,1]]) "
+                    "{ cube(size = [1, 2, 3], center = true); } } } }")
+                .size(),
+            12U);
+}
+
+TEST(OpenscadGrid, RefusesWhatOpenscadRoundsOnTheWay) {
+  for (const char* text : {"minkowski() { cube(1); cube(1); }",
+                           "linear_extrude(height = 1) { projection() { cube(1); } }"}) {
+    try {
+      corners(text);
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.id(), ErrorId::UnsupportedNode) << error.what();
+      EXPECT_TRUE(error.details().position);
+    }
+  }
+}
+
 TEST(OpenscadGrid, RefusesWhatOpenscadsChoicesDecide) {
   ReadOptions options;
   options.rounding = Rounding::OpenScadGrid;

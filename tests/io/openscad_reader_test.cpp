@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refused{"cubes(1);", ErrorId::UnknownNode, 1},
         Refused{"group() { translate([1, 2, 3]) { cube(); } }", ErrorId::UnknownNode, 11},
-        Refused{"group() { minkowski() { cube(); } }", ErrorId::UnsupportedNode, 11},
+        Refused{"group() { fill() { square(); } }", ErrorId::UnsupportedNode, 11},
         Refused{"text(\"a\");", ErrorId::UnsupportedNode, 1},
         Refused{"linear_extrude(height = 1, v = [1, 0, 0]) { square(1); }",
                 ErrorId::UnsupportedNode, 32},

@@ -101,6 +101,16 @@ TEST(OpenScadExports, MembranesAreComparedAndLeftOut) {
   EXPECT_TRUE(has_passed(checks, "openscad 3: stl: area"));
 }
 
+// It goes on without a file that it does not find, so its answer is about another model.
+TEST(OpenScadExports, AreNotHeardWithoutTheFilesThatTheModelNames) {
+  const StandIn openscad(R"(WARNING: Can'"'"'t open import file)");  // quoted for the shell
+  prepare_membrane(openscad);
+  const auto checks = openscad.compare();
+  ASSERT_EQ(checks.size(), 1U);
+  EXPECT_EQ(checks[0].verdict, Verdict::Skipped);
+  EXPECT_NE(checks[0].explanation.find("Can't open import file"), std::string::npos);
+}
+
 // The file lacks one side of the membrane, or has a facet of the solid too many: not a membrane.
 TEST(OpenScadExports, HalfAMembraneIsNotLeftOut) {
   const FacetComplex complex = parse_nef3(read_text(prepared / "membrane.nef3"));

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,10 @@ enum class Rounding {
 struct ReadOptions {
   Rounding rounding = Rounding::AsWritten;
   std::size_t nesting_limit = 10'000'000;
+  // Where `import` and `surface` of a .csg text look for their files, as OpenSCAD looks in the
+  // model's folder. nullopt: they are refused (a text alone reads no files); read_model fills it
+  // in.
+  std::optional<std::filesystem::path> folder{};
   Progress* progress = nullptr;
 };
 

@@ -122,8 +122,10 @@ Model read_mesh(const fs::path& file) {
 
 }  // namespace
 
-Model read_model(const fs::path& file, const ReadOptions& options) {
+Model read_model(const fs::path& file, const ReadOptions& given) {
   check_readable(file);
+  ReadOptions options = given;
+  if (!options.folder) options.folder = file.parent_path();
   const std::string ending = lower_case_ending(file);
   if (ending == ".csg") return read_openscad_csg(read_text(file), file.string(), options);
   if (ending == ".scad") return read_source(file, options);

@@ -12,8 +12,9 @@
 //
 // OpenSCAD exits 0 when it drops an operand; an oracle that reports an error of its own is skipped.
 // Where OpenSCAD's rounding depends on its triangulation (E0104 under Rounding::OpenScadGrid) 1 and
-// 2 are skipped, and 3 takes the model as written, its vertices displaced by 2^-19 more; a file
-// that does not agree within that is undecided and skipped. An export that OpenSCAD itself doubts
+// 2 are skipped, and 3 takes the model as written, its vertices displaced by 2^-19 more, or by
+// 2^-15 where that does not do (outlines are cut to 2^-16); a file that does not agree within that
+// is undecided and skipped. An export that OpenSCAD itself doubts
 // ("may not be a valid 2-manifold") is compared, and skipped if it differs. Every skip has its row.
 
 #include <cstddef>

@@ -85,6 +85,18 @@ DoubleFigure intersect(std::span<const DoubleFigure> operands) {
   return figure_of(result);
 }
 
+ClipperLib::JoinType join_type(OffsetCorner corner) {
+  switch (corner) {
+    case OffsetCorner::Round:
+      return ClipperLib::jtRound;
+    case OffsetCorner::Sharp:
+      return ClipperLib::jtMiter;
+    case OffsetCorner::Chamfer:
+      return ClipperLib::jtSquare;
+  }
+  throw Error(ErrorId::InternalError, {"a corner of no kind", ""});
+}
+
 }  // namespace
 
 DoubleFigure clip(BooleanOperator operation, std::span<const DoubleFigure> operands) {
@@ -107,6 +119,18 @@ DoubleFigure sanitized(const DoubleFigure& figure, Winding winding) {
   clipper.AddPaths(paths_of(figure, winding), ClipperLib::ptSubject, true);
   ClipperLib::PolyTree result;
   clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftEvenOdd);
+  return figure_of(result);
+}
+
+DoubleFigure grown(const DoubleFigure& figure, double distance, OffsetCorner corner,
+                   double arc_tolerance) {
+  constexpr double miter_limit = 1e6;
+  cut(distance);  // is within the library's range
+  ClipperLib::ClipperOffset offset(corner == OffsetCorner::Sharp ? miter_limit : 2.0,
+                                   corner == OffsetCorner::Round ? arc_tolerance * scale : 1.0);
+  offset.AddPaths(paths_of(figure, Winding::Keep), join_type(corner), ClipperLib::etClosedPolygon);
+  ClipperLib::PolyTree result;
+  offset.Execute(result, distance * scale);
   return figure_of(result);
 }
 

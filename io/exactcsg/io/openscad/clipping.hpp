@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "exactcsg/csg/boolean_operator.hpp"
+#include "exactcsg/io/planar/offset.hpp"
 
 namespace exactcsg::io::openscad {
 
@@ -35,5 +36,10 @@ enum class Winding : unsigned char { Keep, MakePositive };
 // The even-odd interior of outlines that may cross: what polygon() and mirrored figures become.
 // THROWS Error(NumberOutOfRange)
 DoubleFigure sanitized(const DoubleFigure& figure, Winding winding);
+
+// What offset() becomes; `arc_tolerance` counts for round corners alone.
+// THROWS Error(NumberOutOfRange)
+DoubleFigure grown(const DoubleFigure& figure, double distance, OffsetCorner corner,
+                   double arc_tolerance);
 
 }  // namespace exactcsg::io::openscad

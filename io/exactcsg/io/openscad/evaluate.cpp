@@ -6,8 +6,14 @@
 #include <utility>
 
 #include "exactcsg/io/openscad/degree_trigonometry.hpp"
+#include "exactcsg/io/openscad/named_files.hpp"
 #include "exactcsg/io/openscad/node_walk.hpp"
 #include "exactcsg/io/openscad/shapes.hpp"
+#include "exactcsg/io/planar/minkowski.hpp"
+#include "exactcsg/io/planar/offset.hpp"
+#include "exactcsg/io/planar/projection.hpp"
+#include "exactcsg/io/planar/unions.hpp"
+#include "exactcsg/solid/evaluate.hpp"
 
 namespace exactcsg::io::openscad {
 
@@ -89,6 +95,7 @@ struct ExactOutcome {
   int dimension = 0;
   Solid solid;
   PlanarTree planar;
+  Rational rounding{0};  // of its coordinates, as Model::rounding_bound
 };
 
 template <class Tree>
@@ -121,17 +128,65 @@ Tree combine(BooleanOperator operation, std::span<const ExactOutcome> operands) 
   return Tree::compose(operation, std::move(trees));
 }
 
+// Least and largest coordinates of points, axis by axis.
+template <std::size_t N>
+class Extents {
+ public:
+  void add(const std::array<Rational, N>& point) {
+    for (std::size_t i = 0; i < N; ++i) {
+      if (empty_ || point[i] < lower_[i]) lower_[i] = point[i];
+      if (empty_ || point[i] > upper_[i]) upper_[i] = point[i];
+    }
+    empty_ = false;
+  }
+  bool empty() const { return empty_; }
+  std::array<Rational, N> sizes() const {
+    std::array<Rational, N> sizes;
+    for (std::size_t i = 0; i < N; ++i) sizes[i] = upper_[i] - lower_[i];
+    return sizes;
+  }
+
+ private:
+  bool empty_ = true;
+  std::array<Rational, N> lower_;
+  std::array<Rational, N> upper_;
+};
+
+Extents<3> extents_of(const Solid& solid) {
+  Extents<3> extents;
+  const auto add = [&](const std::vector<Point3>& points) {
+    for (const Point3& p : points) extents.add({p.x, p.y, p.z});
+  };
+  if (only_unites(solid) && is_bounded(solid)) {
+    csg::for_each_primitive(
+        solid, [&](const Primitive& primitive) { add(polyhedron_of(primitive)->vertices); });
+  } else {
+    add(evaluate(solid).vertices);
+  }
+  return extents;
+}
+
+Extents<2> extents_of(const PlanarFigure& figure) {
+  Extents<2> extents;
+  for (const auto& path : figure.paths) {
+    for (const Point2& p : path) extents.add({p.x, p.y});
+  }
+  return extents;
+}
+
 class ExactBuilder {
  public:
   using Context = PlacementPointer;
   using Outcome = ExactOutcome;
 
-  ExactBuilder(const SyntaxTree& tree, Warnings& warnings) : tree_(tree), warnings_(warnings) {}
+  ExactBuilder(const SyntaxTree& tree, Warnings& warnings, const ReadOptions& options)
+      : tree_(tree), warnings_(warnings), files_(options.folder) {}
 
   Context root() const { return identity_; }
 
   Model finish(std::vector<Outcome> statements) {
     Model model;
+    rounding_ = largest_rounding(statements);
     Outcome whole = unite(statements);
     if (whole.dimension == 2) {
       throw Error(ErrorId::NotThreeDimensional,
@@ -142,12 +197,12 @@ class ExactBuilder {
       warnings_.add("the model is empty (OpenSCAD refuses to export it)", position(0));
     }
     model.primitives = primitives_;
-    model.rounding_bound = std::move(rounding_bound_);
+    model.rounding_bound = std::move(rounding_);
     return model;
   }
 
   Context below(NodeKind kind, std::uint32_t node, const Context& placement) {
-    if (is_extrusion(kind)) return identity_;
+    if (has_own_frame(kind)) return identity_;
     if (kind != NodeKind::Multmatrix) return placement;
     const auto map = read_multmatrix(tree_, node, warnings_);
     Placement next;
@@ -174,6 +229,22 @@ class ExactBuilder {
 
   Outcome inner(NodeKind kind, std::uint32_t node, const Context& placement,
                 std::span<const Outcome> operands) {
+    rounding_ = largest_rounding(operands);
+    Outcome result = combined(kind, node, placement, operands);
+    result.rounding = std::move(rounding_);
+    return result;
+  }
+
+  Outcome leaf(NodeKind kind, std::uint32_t node, const Context& context) {
+    rounding_ = 0;
+    Outcome result = leaf_of(kind, node, *context);
+    result.rounding = std::move(rounding_);
+    return result;
+  }
+
+ private:
+  Outcome combined(NodeKind kind, std::uint32_t node, const Context& placement,
+                   std::span<const Outcome> operands) {
     switch (kind) {
       case NodeKind::Difference:
         return boolean(BooleanOperator::Difference, operands);
@@ -185,13 +256,20 @@ class ExactBuilder {
         return linear(node, *placement, operands);
       case NodeKind::RotateExtrude:
         return rotate(node, *placement, operands);
+      case NodeKind::Offset:
+        return offset_of(node, *placement, operands);
+      case NodeKind::Projection:
+        return projection(node, *placement, operands);
+      case NodeKind::Resize:
+        return resized(node, *placement, operands);
+      case NodeKind::Minkowski:
+        return minkowski(*placement, operands);
       default:
         return unite(operands);
     }
   }
 
-  Outcome leaf(NodeKind kind, std::uint32_t node, const Context& context) {
-    const Placement& placement = *context;
+  Outcome leaf_of(NodeKind kind, std::uint32_t node, const Placement& placement) {
     Outcome result;
     using enum NodeKind;
     if (kind == Square || kind == Circle || kind == Polygon) {
@@ -202,6 +280,14 @@ class ExactBuilder {
     result.dimension = 3;
     if (kind == Polyhedron) {
       result.solid = polyhedron_leaf(node, placement);
+      return result;
+    }
+    if (kind == Import) {
+      result.solid = imported(node, placement);
+      return result;
+    }
+    if (kind == Surface) {
+      result.solid = surface(node, placement);
       return result;
     }
     const auto shape = kind == Cube ? cube(node) : kind == Sphere ? sphere(node) : cylinder(node);
@@ -216,9 +302,14 @@ class ExactBuilder {
     return result;
   }
 
- private:
   SourcePosition position(std::uint32_t node) const {
     return tree_.position(tree_.nodes[node].offset);
+  }
+
+  static Rational largest_rounding(std::span<const Outcome> outcomes) {
+    Rational largest{0};
+    for (const Outcome& outcome : outcomes) largest = std::max(largest, outcome.rounding);
+    return largest;
   }
 
   Outcome unite(std::span<const Outcome> operands) {
@@ -264,7 +355,8 @@ class ExactBuilder {
     for (const Outcome& operand : operands) {
       anything = anything || operand.dimension != 0;
       if (operand.dimension == 3) {
-        warnings_.add("a solid below an extrusion counts as empty", position(operand.node));
+        warnings_.add("a solid below a node of planar figures counts as empty",
+                      position(operand.node));
       }
     }
     if (!anything) return std::nullopt;
@@ -284,16 +376,18 @@ class ExactBuilder {
     extrusion.upper = shape.center ? Rational(shape.height / 2) : shape.height;
     extrusion.scale = shape.scale;
     const bool same_scale = shape.scale[0] == shape.scale[1];
+    // A coordinate moves by at most twice as much turned, and then as the scale says.
+    const Rational factor = 2 * std::max({Rational(1), shape.scale[0], shape.scale[1]});
+    if (shape.twist != 0 || !same_scale || shape.scale[0] > 1) rounding_ *= factor;
     if (shape.twist != 0 || !same_scale) {
-      extrusion.levels = levels(shape, *outline, placement);
+      extrusion.levels = levels(shape, *outline);
     }
     result.solid = placed(linear_extrude(*outline, extrusion), placement);
     return result;
   }
 
   std::vector<LinearExtrusion::Level> levels(const LinearExtrudeShape& shape,
-                                             const PlanarTree& outline,
-                                             const Placement& placement) {
+                                             const PlanarTree& outline) {
     const double twist = nearest_double(shape.twist);
     const PlanarFigure figure = resolve(outline);
     const std::size_t slices = shape.slices ? *shape.slices : slice_count(shape, figure);
@@ -306,8 +400,8 @@ class ExactBuilder {
     }
     count_vertices(vertices * (slices + 1));
     if (twist != 0) {
-      add_rounding(unit_rounding_bound() * largest * 2 * stretch(placement.space) *
-                   std::max({Rational(1), shape.scale[0], shape.scale[1]}));
+      rounding_ += unit_rounding_bound() * largest * 2 *
+                   std::max({Rational(1), shape.scale[0], shape.scale[1]});
     }
     std::vector<LinearExtrusion::Level> result;
     result.reserve(slices);
@@ -374,7 +468,7 @@ class ExactBuilder {
     }
     const auto directions = ring_directions(shape, largest - least);
     count_vertices(vertices * directions.size());
-    add_rounding(unit_rounding_bound() * (largest - least) * stretch(placement.space));
+    rounding_ += unit_rounding_bound() * (largest - least);
     result.solid = placed(rotate_extrude(*outline, directions, shape.angle == 360), placement);
     return result;
   }
@@ -419,9 +513,119 @@ class ExactBuilder {
 
   Solid placed(const Solid& solid, const Placement& placement) {
     primitives_ += solid.primitive_count();
+    return moved(solid, placement);
+  }
+
+  // Out of a frame of its own.
+  Solid moved(const Solid& solid, const Placement& placement) {
     if (placement.singular || solid.is_empty()) return Solid::empty();
     if (placement.space == AffineMap::identity()) return solid;
+    rounding_ *= stretch(placement.space);
     return apply(placement.space, solid);
+  }
+
+  PlanarTree moved(const PlanarTree& tree, const Placement& placement, std::uint32_t node) {
+    if (tree.is_empty() || placement.plane.m == identity_->plane.m) return tree;
+    if (is_singular(placement.plane)) {
+      warn_of_singular_plane(node);
+      return PlanarTree::empty();
+    }
+    rounding_ *= stretch(placement.plane);
+    return io::apply(placement.plane, tree);
+  }
+
+  void warn_of_singular_plane(std::uint32_t node) {
+    warnings_.add("a matrix above is singular in the plane: the figure is empty", position(node));
+  }
+
+  Outcome offset_of(std::uint32_t node, const Placement& placement,
+                    std::span<const Outcome> operands) {
+    Outcome result;
+    const OffsetShape shape = read_offset(tree_, node, warnings_);
+    const auto outline = planar_children(operands);
+    if (!outline) return result;
+    result.dimension = 2;
+    if (outline->is_empty()) return result;
+    Offset parameters;
+    parameters.distance = shape.distance;
+    parameters.corner = shape.corner;
+    parameters.arc_tolerance = arc_tolerance(shape);
+    OffsetResult grown = offset(*outline, parameters);
+    for (const auto& path : grown.figure.paths) count_vertices(path.size());
+    rounding_ += grown.rounding;
+    result.planar = moved(figure_tree(std::move(grown.figure)), placement, node);
+    return result;
+  }
+
+  // The union of the children that are solids; planar ones count as empty.
+  Solid solid_children(std::span<const Outcome> operands) {
+    for (const Outcome& operand : operands) {
+      if (operand.dimension == 2) {
+        warnings_.add("a planar figure below a projection counts as empty", position(operand.node));
+      }
+    }
+    return combine<Solid>(BooleanOperator::Union, operands);
+  }
+
+  Outcome projection(std::uint32_t node, const Placement& placement,
+                     std::span<const Outcome> operands) {
+    Outcome result;
+    const bool cut = read_projection_cut(tree_, node, warnings_);
+    const Solid solid = solid_children(operands);
+    result.dimension = 2;
+    if (solid.is_empty()) return result;
+    PlanarFigure figure = resolve(cut ? section(solid) : shadow(solid));
+    for (const auto& path : figure.paths) count_vertices(path.size());
+    result.planar = moved(figure_tree(std::move(figure)), placement, node);
+    return result;
+  }
+
+  Outcome resized(std::uint32_t node, const Placement& placement,
+                  std::span<const Outcome> operands) {
+    const ResizeShape shape = read_resize(tree_, node, warnings_);
+    Outcome result = unite(operands);
+    if (result.dimension == 2 && !result.planar.is_empty()) {
+      const auto extents = extents_of(resolve(result.planar));
+      if (extents.empty()) return {0, 2, {}, {}};
+      const auto factors = resize_factors(shape, extents.sizes());
+      const AffineMap2 map{{{{factors[0], 0, 0}, {0, factors[1], 0}}}};
+      rounding_ *= stretch(map);
+      result.planar = moved(io::apply(map, result.planar), placement, node);
+    } else if (result.dimension == 3 && !result.solid.is_empty()) {
+      const auto extents = extents_of(result.solid);
+      if (extents.empty()) return {0, 3, {}, {}};
+      const auto factors = resize_factors(shape, extents.sizes());
+      const AffineMap map = diagonal(factors[0], factors[1], factors[2], {0, 0, 0});
+      rounding_ *= stretch(map);
+      result.solid =
+          moved(map == AffineMap::identity() ? result.solid : apply(map, result.solid), placement);
+    }
+    return result;
+  }
+
+  // As OpenSCAD: what is empty is no operand, but for the first of planar ones.
+  Outcome minkowski(const Placement& placement, std::span<const Outcome> operands) {
+    Outcome result = boolean(BooleanOperator::Union, operands);
+    Rational rounding{0};
+    for (const Outcome& operand : operands) rounding += operand.rounding;
+    rounding_ = std::move(rounding);
+    if (result.dimension == 2) {
+      result.planar = operands.front().planar;
+      for (const Outcome& operand : operands.subspan(1)) {
+        if (operand.planar.is_empty() || result.planar.is_empty()) continue;
+        result.planar = minkowski_sum(result.planar, operand.planar);
+      }
+      result.planar = moved(figure_tree(resolve(result.planar)), placement, result.node);
+    } else {
+      result.solid = Solid::empty();
+      for (const Outcome& operand : operands) {
+        if (extents_of(operand.solid).empty()) continue;
+        result.solid =
+            result.solid.is_empty() ? operand.solid : minkowski_sum(result.solid, operand.solid);
+      }
+      result.solid = moved(result.solid, placement);
+    }
+    return result;
   }
 
   std::string origin(std::uint32_t node) const {
@@ -478,13 +682,39 @@ class ExactBuilder {
   }
 
   Solid polyhedron_leaf(std::uint32_t node, const Placement& placement) {
-    FacedPoints points = read_polyhedron(tree_, node, warnings_);
+    const FacedPoints points = read_polyhedron(tree_, node, warnings_);
     count_vertices(points.points.size());
     ++primitives_;
     if (points.points.empty() && points.faces.empty()) return Solid::empty();
+    return faced(points, node, placement);
+  }
+
+  Solid faced(const FacedPoints& points, std::uint32_t node, const Placement& placement) {
     Primitive primitive = make_polyhedron(
         points, [&](const std::string& text) { warnings_.add(text, position(node)); });
     if (placement.singular) return Solid::empty();
+    if (placement.space != AffineMap::identity()) primitive = apply(placement.space, primitive);
+    primitive.origin = origin(node);
+    return Solid::primitive(std::move(primitive));
+  }
+
+  Solid imported(std::uint32_t node, const Placement& placement) {
+    const PolygonSoup& soup = files_.mesh(read_import(tree_, node, warnings_));
+    count_vertices(soup.vertices.size());
+    ++primitives_;
+    return faced({soup.vertices, soup.facets}, node, placement);
+  }
+
+  Solid surface(std::uint32_t node, const Placement& placement) {
+    FacedPoints field = files_.height_field(read_surface(tree_, node, warnings_));
+    if (field.points.empty()) {
+      warnings_.add("a surface of fewer than two rows or columns is empty", position(node));
+      return Solid::empty();
+    }
+    count_vertices(field.points.size());
+    ++primitives_;
+    if (placement.singular) return Solid::empty();
+    Primitive primitive{make_mesh_unchecked({std::move(field.points), std::move(field.faces)}), {}};
     if (placement.space != AffineMap::identity()) primitive = apply(placement.space, primitive);
     primitive.origin = origin(node);
     return Solid::primitive(std::move(primitive));
@@ -507,7 +737,7 @@ class ExactBuilder {
     }
     if (figure.paths.empty()) return PlanarTree::empty();
     if (is_singular(placement.plane)) {
-      warnings_.add("a matrix above is singular in the plane: the figure is empty", position(node));
+      warn_of_singular_plane(node);
       return PlanarTree::empty();
     }
     for (auto& path : figure.paths) {
@@ -540,7 +770,7 @@ class ExactBuilder {
   }
 
   void add_rounding(const Rational& bound) {
-    if (bound > rounding_bound_) rounding_bound_ = bound;
+    if (bound > rounding_) rounding_ = bound;
   }
 
   void count_vertices(std::size_t count) {
@@ -555,17 +785,18 @@ class ExactBuilder {
   const SyntaxTree& tree_;
   Warnings& warnings_;
   const Context identity_ = std::make_shared<const Placement>();
+  NamedFiles files_;
   ShapeCache shapes_;
   std::size_t primitives_ = 0;
   std::size_t vertices_ = 0;
-  Rational rounding_bound_{0};
+  Rational rounding_{0};  // of the node at work
 };
 
 }  // namespace
 
 Model evaluate_as_written(const SyntaxTree& tree, const ReadOptions& options) {
   Warnings warnings;
-  ExactBuilder builder(tree, warnings);
+  ExactBuilder builder(tree, warnings, options);
   NodeWalk<ExactBuilder> walk(tree, builder, warnings, options.progress);
   Model model = builder.finish(walk.run());
   model.warnings = std::move(warnings).take();

@@ -3,15 +3,20 @@
 // 2021.01 (src/primitives.cc, src/GeometryEvaluator.cc) and are part of the result.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "exactcsg/io/openscad/clipping.hpp"
 #include "exactcsg/io/openscad/degree_trigonometry.hpp"
 #include "exactcsg/io/openscad/evaluate.hpp"
 #include "exactcsg/io/openscad/grid_rounding.hpp"
+#include "exactcsg/io/openscad/named_files.hpp"
 #include "exactcsg/io/openscad/node_walk.hpp"
 #include "exactcsg/io/openscad/shapes.hpp"
+#include "exactcsg/io/planar/projection.hpp"
+#include "exactcsg/solid/evaluate.hpp"
 
 namespace exactcsg::io::openscad {
 
@@ -39,6 +44,18 @@ DoubleFigure clip(BooleanOperator operation, std::span<const GridOutcome> operan
     figures.push_back(operand.dimension == 2 ? operand.planar : DoubleFigure{});
   }
   return clip(operation, figures);
+}
+
+// Of an outline that does not cross itself.
+bool is_counter_clockwise(const DoubleOutline& outline) {
+  double twice_area = 0;
+  const auto& v = outline.vertices;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const auto& p = v[i];
+    const auto& q = v[(i + 1) % v.size()];
+    twice_area += p[0] * q[1] - p[1] * q[0];
+  }
+  return twice_area > 0;
 }
 
 bool is_convex(const DoubleFigure& figure) {
@@ -89,7 +106,8 @@ class GridBuilder {
   struct Context {};
   using Outcome = GridOutcome;
 
-  GridBuilder(const SyntaxTree& tree, Warnings& warnings) : tree_(tree), warnings_(warnings) {}
+  GridBuilder(const SyntaxTree& tree, Warnings& warnings, const ReadOptions& options)
+      : tree_(tree), warnings_(warnings), files_(options.folder) {}
 
   static Context root() { return {}; }
   static Context below(NodeKind, std::uint32_t, const Context&) { return {}; }
@@ -124,6 +142,8 @@ class GridBuilder {
     result.soup = kind == Cube       ? cube(node)
                   : kind == Sphere   ? sphere(node)
                   : kind == Cylinder ? cylinder(node)
+                  : kind == Import   ? imported(node)
+                  : kind == Surface  ? surface(node)
                                      : polyhedron(node);
     return result;
   }
@@ -143,6 +163,14 @@ class GridBuilder {
         return linear(node, operands);
       case NodeKind::RotateExtrude:
         return rotate(node, operands);
+      case NodeKind::Offset:
+        return offset_of(node, operands);
+      case NodeKind::Projection:
+        return projection(node, operands);
+      case NodeKind::Resize:
+        return resized(node, operands);
+      case NodeKind::Minkowski:
+        refuse("'minkowski', whose operands it rounds on the way,");
       default:
         return unite(operands);
     }
@@ -370,8 +398,126 @@ class GridBuilder {
     return soup;
   }
 
-  Soup polyhedron(std::uint32_t node) {
-    const FacedPoints shape = read_polyhedron(tree_, node, warnings_);
+  // Without a position: the walk knows it.
+  [[noreturn]] static void refuse(const std::string& what) {
+    throw Error(ErrorId::UnsupportedNode, {what + " under OpenSCAD's own rounding", ""});
+  }
+
+  Outcome offset_of(std::uint32_t node, std::span<const Outcome> operands) {
+    Outcome result;
+    const OffsetShape shape = read_offset(tree_, node, warnings_);
+    const auto figure = planar_children(operands);
+    if (!figure) return result;
+    result.dimension = 2;
+    result.planar =
+        grown(*figure, nearest_double(shape.distance), shape.corner, arc_tolerance(shape));
+    return result;
+  }
+
+  Outcome projection(std::uint32_t node, std::span<const Outcome> operands) {
+    if (!read_projection_cut(tree_, node, warnings_)) {
+      refuse("'projection' without cut, whose facets it unites one by one,");
+    }
+    std::vector<Outcome> solids;
+    for (const Outcome& operand : operands) {
+      if (operand.dimension == 3) solids.push_back(operand);
+    }
+    Outcome result;
+    result.dimension = 2;
+    const Outcome whole = unite(solids);
+    if (whole.is_empty()) return result;
+    for (const auto& path : resolve(section(exact(whole))).paths) {
+      DoubleOutline& outline = result.planar.outlines.emplace_back();
+      for (const Point2& p : path) {
+        outline.vertices.push_back({p.x.get_d(), p.y.get_d()});  // cut, as OpenSCAD's doubles are
+      }
+      outline.positive = is_counter_clockwise(outline);
+    }
+    return result;
+  }
+
+  Outcome resized(std::uint32_t node, std::span<const Outcome> operands) {
+    const ResizeShape shape = read_resize(tree_, node, warnings_);
+    Outcome result = unite(operands);
+    if (result.is_empty()) return result;
+    if (result.dimension == 3 && result.exact) {
+      // The sizes' doubles by the exact extents, and that as a double.
+      std::array<Rational, 3> sizes;
+      const std::vector<Point3> vertices = evaluate(result.solid).vertices;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [least, largest] = std::minmax_element(
+            vertices.begin(), vertices.end(),
+            [i](const Point3& p, const Point3& q) { return coordinate(p, i) < coordinate(q, i); });
+        if (least == vertices.end()) return result;
+        sizes[i] = coordinate(*largest, i) - coordinate(*least, i);
+      }
+      ResizeShape rounded = shape;
+      for (Rational& size : rounded.size) size = rational_of(nearest_double(size));
+      const auto factors = resize_factors(rounded, sizes);
+      AffineMap map = AffineMap::identity();
+      // Its library's conversion to double cuts.
+      for (std::size_t i = 0; i < 3; ++i) map.m[i][i] = rational_of(factors[i].get_d());
+      result.solid = apply(map, result.solid);
+      return result;
+    }
+    DoubleMap map{};
+    const auto factors = double_factors(shape, result);
+    for (std::size_t i = 0; i < 3; ++i) map[i][i] = factors[i];
+    if (result.dimension == 2) {
+      move_planar(map, result.planar);
+    } else {
+      result.soup = transformed(map, std::move(result.soup));
+    }
+    return result;
+  }
+
+  // The same in double, as OpenSCAD does it to figures and polygons.
+  static std::array<double, 3> double_factors(const ResizeShape& shape, const Outcome& body) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    std::array<double, 3> lower{infinite, infinite, infinite};
+    std::array<double, 3> upper{-infinite, -infinite, -infinite};
+    const auto add = [&](const auto& point) {
+      for (std::size_t i = 0; i < point.size(); ++i) {
+        lower[i] = std::min(lower[i], point[i]);
+        upper[i] = std::max(upper[i], point[i]);
+      }
+    };
+    for (const DoubleOutline& outline : body.planar.outlines) {
+      for (const auto& p : outline.vertices) add(p);
+    }
+    for (const auto& polygon : body.soup.polygons) {
+      for (const auto& p : polygon) add(p);
+    }
+    for (const Cap& cap : body.soup.caps) {
+      for (const auto& loop : cap.loops) {
+        for (const auto& p : loop) add(p);
+      }
+    }
+    const std::size_t axes = body.dimension == 2 ? 2 : 3;
+    std::array<double, 3> factors{1, 1, 1};
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i < axes; ++i) {
+      if (shape.size[i] > 0) factors[i] = nearest_double(shape.size[i]) / (upper[i] - lower[i]);
+      if (shape.size[i] > shape.size[largest]) largest = i;
+    }
+    for (std::size_t i = 0; i < axes; ++i) {
+      if (shape.size[i] == 0 && shape.automatic[i]) factors[i] = factors[largest];
+    }
+    return factors;
+  }
+
+  Soup imported(std::uint32_t node) {
+    const PolygonSoup& mesh = files_.mesh(read_import(tree_, node, warnings_));
+    return soup_of({mesh.vertices, mesh.facets});
+  }
+
+  Soup surface(std::uint32_t node) {
+    return soup_of(files_.height_field(read_surface(tree_, node, warnings_)));
+  }
+
+  Soup polyhedron(std::uint32_t node) { return soup_of(read_polyhedron(tree_, node, warnings_)); }
+
+  static Soup soup_of(const FacedPoints& shape) {
     Soup soup;
     for (const auto& face : shape.faces) {
       auto& polygon = soup.polygons.emplace_back();
@@ -627,6 +773,7 @@ class GridBuilder {
 
   const SyntaxTree& tree_;
   Warnings& warnings_;
+  NamedFiles files_;
   std::size_t primitives_ = 0;
   std::size_t vertices_ = 0;
 };
@@ -635,7 +782,7 @@ class GridBuilder {
 
 Model evaluate_on_grid(const SyntaxTree& tree, const ReadOptions& options) {
   Warnings warnings;
-  GridBuilder builder(tree, warnings);
+  GridBuilder builder(tree, warnings, options);
   NodeWalk<GridBuilder> walk(tree, builder, warnings, options.progress);
   Model model = builder.finish(walk.run());
   model.warnings = std::move(warnings).take();

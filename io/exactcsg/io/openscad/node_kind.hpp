@@ -19,10 +19,16 @@ enum class NodeKind : std::uint8_t {
   Multmatrix,
   LinearExtrude,
   RotateExtrude,
+  Offset,
+  Projection,
+  Resize,
+  Minkowski,
   Cube,
   Sphere,
   Cylinder,
   Polyhedron,
+  Import,
+  Surface,
   Square,
   Circle,
   Polygon,
@@ -32,12 +38,14 @@ enum class NodeKind : std::uint8_t {
 constexpr bool is_leaf(NodeKind kind) {
   using enum NodeKind;
   return kind == Cube || kind == Sphere || kind == Cylinder || kind == Polyhedron ||
-         kind == Square || kind == Circle || kind == Polygon;
+         kind == Import || kind == Surface || kind == Square || kind == Circle || kind == Polygon;
 }
 
-// Their children are planar, in a frame of their own.
-constexpr bool is_extrusion(NodeKind kind) {
-  return kind == NodeKind::LinearExtrude || kind == NodeKind::RotateExtrude;
+// Their children are in a frame of their own: what they make does not commute with matrices.
+constexpr bool has_own_frame(NodeKind kind) {
+  using enum NodeKind;
+  return kind == LinearExtrude || kind == RotateExtrude || kind == Offset || kind == Projection ||
+         kind == Resize || kind == Minkowski;
 }
 
 // nullopt: no release of OpenSCAD writes such a node.

@@ -103,7 +103,7 @@ class NodeWalk {
     const NodeKind kind = kind_of(index);
     if (!is_leaf(kind)) {
       Context below = builder_.below(kind, index, context);
-      if (!is_extrusion(kind)) context = Context();  // only extrusions come back to their own
+      if (!has_own_frame(kind)) context = Context();  // nobody else comes back to it
       frames_.push_back(
           {index, index + 1, kind, results_.size(), std::move(context), std::move(below)});
       return;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exactcsg/io/openscad/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
+
+#include "exactcsg/io/openscad/degree_trigonometry.hpp"
 
 namespace exactcsg::io::openscad {
 
@@ -96,6 +99,38 @@ std::array<Rational, N> read_point(const Arguments& arguments, const Value& valu
     point[i] = arguments.number_of(arguments.value(entries[i]), "a coordinate");
   }
   return point;
+}
+
+// The text between quotes with its escapes resolved; an unknown escape keeps its backslash.
+std::string unescaped(std::string_view quoted) {
+  std::string text;
+  for (std::size_t i = 0; i < quoted.size(); ++i) {
+    if (quoted[i] != '\\' || i + 1 == quoted.size()) {
+      text += quoted[i];
+      continue;
+    }
+    constexpr std::string_view escapes = "tnr\"\\";
+    constexpr std::string_view meanings = "\t\n\r\"\\";
+    const auto escape = escapes.find(quoted[i + 1]);
+    if (escape == std::string_view::npos) {
+      text += quoted[i];
+    } else {
+      text += meanings[escape];
+      ++i;
+    }
+  }
+  return text;
+}
+
+FileShape file_of(const Arguments& arguments) {
+  constexpr std::string_view expected = "the name of a file, in quotes";
+  const Value* const value = arguments.find("file");
+  if (value == nullptr) {
+    throw Error(ErrorId::BadArgument,
+                {"no file", std::string(expected), arguments.node_position()});
+  }
+  if (value->kind != Value::Kind::Text || value->text.empty()) arguments.fail(*value, expected);
+  return {unescaped(value->text), arguments.position(*value)};
 }
 
 }  // namespace
@@ -228,6 +263,79 @@ RotateExtrudeShape read_rotate_extrude(const SyntaxTree& tree, std::uint32_t nod
   shape.start = arguments.number("start");
   shape.fineness = read_fineness(arguments);
   return shape;
+}
+
+OffsetShape read_offset(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"r", "delta", "chamfer", "$fn", "$fa", "$fs"};
+  const Arguments arguments(tree, node, names, 1, warnings);
+  OffsetShape shape;
+  shape.fineness = read_fineness(arguments);
+  const bool chamfer = arguments.boolean("chamfer").value_or(false);
+  const auto delta = arguments.number("delta");
+  shape.distance = arguments.number("r").value_or(1);
+  // A radius goes first.
+  if (delta && arguments.find("r") == nullptr) {
+    shape.distance = *delta;
+    shape.corner = chamfer ? OffsetCorner::Chamfer : OffsetCorner::Sharp;
+  }
+  return shape;
+}
+
+double arc_tolerance(const OffsetShape& shape) {
+  const double radius = std::fabs(nearest_double(shape.distance));
+  const auto n = static_cast<double>(fragments(radius, shape.fineness));
+  return radius * (1 - cosine_of_degrees(180 / n));
+}
+
+bool read_projection_cut(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"cut", "convexity"};
+  return Arguments(tree, node, names, 1, warnings).boolean("cut").value_or(false);
+}
+
+ResizeShape read_resize(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"newsize", "auto", "convexity"};
+  const Arguments arguments(tree, node, names, 2, warnings);
+  ResizeShape shape;
+  if (const Value* const sizes = arguments.find("newsize")) {
+    constexpr std::string_view expected = "a vector of at most 3 sizes of at least 0";
+    const auto indices = arguments.elements(*sizes, expected);
+    if (indices.size() > 3) arguments.fail(*sizes, expected);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      const Value& size = arguments.value(indices[i]);
+      shape.size[i] = arguments.number_of(size, expected);
+      // OpenSCAD mirrors some bodies and ignores the size of others.
+      if (shape.size[i] < 0) arguments.fail(size, expected);
+    }
+  }
+  const auto flag = [&](const Value& value) {
+    if (value.kind == Value::Kind::Boolean) return value.boolean;
+    return arguments.number_of(value, "true or false") != 0;
+  };
+  if (const Value* const automatic = arguments.find("auto")) {
+    if (automatic->kind != Value::Kind::Vector) {
+      shape.automatic.fill(flag(*automatic));
+      return shape;
+    }
+    const auto indices = arguments.elements(*automatic, "a vector of truth values");
+    for (std::size_t i = 0; i < std::min<std::size_t>(indices.size(), 3); ++i) {
+      shape.automatic[i] = flag(arguments.value(indices[i]));
+    }
+  }
+  return shape;
+}
+
+FileShape read_import(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"file",  "layer",  "convexity", "origin",
+                                               "scale", "center", "dpi",       "id",
+                                               "$fn",   "$fa",    "$fs",       "timestamp"};
+  return file_of(Arguments(tree, node, names, 1, warnings));
+}
+
+SurfaceShape read_surface(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"file",   "center",    "convexity",
+                                               "invert", "timestamp", "color"};
+  const Arguments arguments(tree, node, names, 3, warnings);
+  return {file_of(arguments), arguments.boolean("center").value_or(false)};
 }
 
 std::optional<AffineMap> read_multmatrix(const SyntaxTree& tree, std::uint32_t node,

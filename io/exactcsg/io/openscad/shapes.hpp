@@ -7,11 +7,13 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "exactcsg/io/openscad/arguments.hpp"
 #include "exactcsg/io/openscad/polyhedron.hpp"
 #include "exactcsg/io/openscad/tessellation.hpp"
+#include "exactcsg/io/planar/offset.hpp"
 #include "exactcsg/io/planar/planar.hpp"
 #include "exactcsg/number/point.hpp"
 
@@ -52,6 +54,24 @@ struct RotateExtrudeShape {
   std::optional<Rational> start;
   Fineness fineness;
 };
+struct OffsetShape {
+  Rational distance;
+  OffsetCorner corner = OffsetCorner::Round;
+  Fineness fineness;
+};
+// A size of 0 keeps the extent, or with `automatic` takes the factor of the largest size.
+struct ResizeShape {
+  std::array<Rational, 3> size;
+  std::array<bool, 3> automatic{};
+};
+struct FileShape {
+  std::string file;
+  SourcePosition position;  // of the name
+};
+struct SurfaceShape {
+  FileShape file;
+  bool center = false;
+};
 
 // All of them THROW Error(BadArgument | NumberOutOfRange | TooLarge | UnsupportedNode |
 // UnknownVertex) with the position of the argument.
@@ -64,6 +84,30 @@ CircleShape read_circle(const SyntaxTree&, std::uint32_t node, Warnings&);
 PlanarFigure read_polygon(const SyntaxTree&, std::uint32_t node, Warnings&);
 LinearExtrudeShape read_linear_extrude(const SyntaxTree&, std::uint32_t node, Warnings&);
 RotateExtrudeShape read_rotate_extrude(const SyntaxTree&, std::uint32_t node, Warnings&);
+OffsetShape read_offset(const SyntaxTree&, std::uint32_t node, Warnings&);
+bool read_projection_cut(const SyntaxTree&, std::uint32_t node, Warnings&);
+ResizeShape read_resize(const SyntaxTree&, std::uint32_t node, Warnings&);
+FileShape read_import(const SyntaxTree&, std::uint32_t node, Warnings&);
+SurfaceShape read_surface(const SyntaxTree&, std::uint32_t node, Warnings&);
+
+// What OpenSCAD lets an arc of the offset be away from its circle. THROWS Error(TooLarge)
+double arc_tolerance(const OffsetShape& shape);
+
+// The factors by which a body of these extents is resized. REQUIRES positive extents.
+template <std::size_t N>
+std::array<Rational, N> resize_factors(const ResizeShape& shape,
+                                       const std::array<Rational, N>& extents) {
+  std::size_t largest = 0;
+  std::array<Rational, N> factors;
+  for (std::size_t i = 0; i < N; ++i) {
+    factors[i] = shape.size[i] > 0 ? Rational(shape.size[i] / extents[i]) : Rational(1);
+    if (shape.size[i] > shape.size[largest]) largest = i;
+  }
+  for (std::size_t i = 0; i < N; ++i) {
+    if (shape.size[i] == 0 && shape.automatic[i]) factors[i] = factors[largest];
+  }
+  return factors;
+}
 
 // The matrix with its last row divided out. nullopt: the last entry of that row is zero.
 std::optional<AffineMap> read_multmatrix(const SyntaxTree&, std::uint32_t node, Warnings&);

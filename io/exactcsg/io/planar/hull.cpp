@@ -13,6 +13,7 @@
 #include "exactcsg/io/planar/exact_kernel.hpp"
 #include "exactcsg/io/planar/hull_traits.hpp"
 #include "exactcsg/io/planar/outline.hpp"
+#include "exactcsg/io/planar/unions.hpp"
 #include "exactcsg/solid/evaluate.hpp"
 
 namespace exactcsg::io {
@@ -158,30 +159,9 @@ Solid hull_of(std::vector<Point3> points) {
   return Solid::primitive({make_convex_polytope_unchecked(std::move(polyhedron))});
 }
 
-template <class Tree>
-bool only_unites(const Tree& tree) {
-  bool unions = true;
-  csg::walk(
-      tree.root(),
-      [&](auto node) {
-        unions = unions && (node.operation() == csg::BooleanOperator::Union ||
-                            node.tree().children().size() == 1);
-        return unions;
-      },
-      [&](auto node) { unions = unions && node.kind() != csg::NodeKind::Full; }, [](auto) {});
-  return unions;
-}
-
-bool is_bounded(const Solid& solid) {
-  bool bounded = true;
-  csg::for_each_primitive(solid, [&](const Primitive& primitive) {
-    bounded = bounded && polyhedron_of(primitive) != nullptr;
-  });
-  return bounded;
-}
-
-void add_outline_points(const PlanarTree& tree, std::vector<ExactPoint2>& points) {
-  for (const Point2& p : outline_of(tree).points) points.push_back(exact_point(p));
+void add_outline_points(const PlanarTree& tree, std::vector<Point2>& points) {
+  const Outline outline = outline_of(tree);
+  points.insert(points.end(), outline.points.begin(), outline.points.end());
 }
 
 }  // namespace
@@ -198,8 +178,20 @@ Solid hull(const Solid& solid) {
   return hull_of(std::move(points));
 }
 
+std::vector<Point2> planar_hull(const std::vector<Point2>& points) {
+  std::vector<ExactPoint2> exact;
+  exact.reserve(points.size());
+  for (const Point2& p : points) exact.push_back(exact_point(p));
+  std::vector<ExactPoint2> corners;
+  CGAL::convex_hull_2(exact.begin(), exact.end(), std::back_inserter(corners));
+  std::vector<Point2> result;
+  result.reserve(corners.size());
+  for (const ExactPoint2& p : corners) result.push_back(point_of(p));
+  return result;
+}
+
 std::vector<Point2> hull(const PlanarTree& tree) {
-  std::vector<ExactPoint2> points;
+  std::vector<Point2> points;
   if (only_unites(tree)) {
     // Figure by figure: lines and other parts without area must not count.
     csg::for_each_primitive(tree, [&](const PlanarFigure& figure) {
@@ -208,11 +200,7 @@ std::vector<Point2> hull(const PlanarTree& tree) {
   } else {
     add_outline_points(tree, points);
   }
-  std::vector<ExactPoint2> corners;
-  CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(corners));
-  std::vector<Point2> result;
-  for (const ExactPoint2& p : corners) result.push_back(point_of(p));
-  return result;
+  return planar_hull(points);
 }
 
 }  // namespace exactcsg::io
