@@ -23,9 +23,15 @@ namespace {
 using test::below;
 using test::chain;
 using test::chain_depth;
+using test::combine_texts;
+using test::constant_texts;
+using test::constants;
+using test::leaf;
+using test::name;
 using test::random_tree;
 using test::Side;
 using test::TestTree;
+using test::text;
 using enum BooleanOperator;
 
 // The least that may have an attribute: copyable.
@@ -37,15 +43,6 @@ static_assert(ReadableTree<AttributedTree<MinimalPrimitive, MinimalOperator, std
 static_assert(PrunableOperator<Attributed<BooleanOperator, std::string>>);
 static_assert(!PrunableOperator<Attributed<MinimalOperator, std::string>>);
 static_assert(std::convertible_to<Attributed<int, std::string>, int>);
-
-TestTree leaf(int i) { return TestTree::primitive(i); }
-
-std::string name(BooleanOperator op) { return {BooleanCodes{}(op)}; }
-constexpr auto combine_texts = [](std::string a, BooleanOperator op, const std::string& b) {
-  return "(" + a + " " + name(op) + " " + b + ")";
-};
-constexpr auto text = [](int i) { return std::to_string(i); };
-const FullEmptyResult constant_texts{std::string("full"), std::string("empty")};
 
 // LAW attribute.1: against traverse of every subtree.
 void expect_attributes_of_subtrees(const AttributedTree<int, BooleanOperator, std::string>& tree) {
@@ -109,7 +106,6 @@ TEST(Attributed, KeepsSharing) {
 TEST(Attributed, IsUsedLikeTheTreeWithout) {
   std::mt19937 random(12);
   const auto parity = [](int i) { return i % 2 == 0 ? Membership::In : Membership::Out; };
-  const FullEmptyResult constants{Membership::In, Membership::Out};
   const auto half_known = [](int i) { return i < 3 ? Membership::Unknown : Membership::In; };
   for (int round = 0; round < 300; ++round) {
     const TestTree tree = random_tree(random, 5, 6);
@@ -176,7 +172,6 @@ constexpr auto inside = [](const Interval& i, int x) {
 constexpr auto outside_box = [](const Interval& box, int x) {
   return box.contains(x) ? std::nullopt : std::optional(Membership::Out);
 };
-const FullEmptyResult in_and_out{Membership::In, Membership::Out};
 
 // LAW traverse.4: bounding boxes.
 TEST(CutOff, DoesNotChangeTheClassOfAPoint) {
@@ -185,9 +180,9 @@ TEST(CutOff, DoesNotChangeTheClassOfAPoint) {
     const Solid solid = random_solid(random);
     const BoxedSolid boxes = boxed(solid);
     for (int x = -1; x < 48; ++x) {
-      const Membership expected = traverse(solid, x, inside, combine, in_and_out);
-      ASSERT_EQ(traverse(boxes, x, CutOff{inside, outside_box}, combine, in_and_out), expected);
-      ASSERT_EQ(traverse(boxes, x, CutOff{inside, outside_box}, combine, in_and_out, absorbs),
+      const Membership expected = traverse(solid, x, inside, combine, constants);
+      ASSERT_EQ(traverse(boxes, x, CutOff{inside, outside_box}, combine, constants), expected);
+      ASSERT_EQ(traverse(boxes, x, CutOff{inside, outside_box}, combine, constants, absorbs),
                 expected);
     }
   }
@@ -247,8 +242,8 @@ TEST(CutOff, PrunesBySubtrees) {
     spared += asked_without - asked;
     EXPECT_LE(pruned.node_count(), plain.node_count());
     for (int x = region.from; x <= region.to; ++x) {
-      ASSERT_EQ(traverse(pruned, x, inside, combine, in_and_out),
-                traverse(solid, x, inside, combine, in_and_out));
+      ASSERT_EQ(traverse(pruned, x, inside, combine, constants),
+                traverse(solid, x, inside, combine, constants));
     }
   }
   EXPECT_GT(spared, 1000);
@@ -291,8 +286,8 @@ TEST(Inherit, NarrowsBoxesDownwards) {
     const Solid solid = random_solid(random);
     const BoxedSolid narrowed = inherit(boxed(solid), everything, Narrow{});
     for (int x = -1; x < 48; ++x) {
-      ASSERT_EQ(traverse(narrowed, x, CutOff{inside, outside_box}, combine, in_and_out),
-                traverse(solid, x, inside, combine, in_and_out));
+      ASSERT_EQ(traverse(narrowed, x, CutOff{inside, outside_box}, combine, constants),
+                traverse(solid, x, inside, combine, constants));
     }
   }
 }

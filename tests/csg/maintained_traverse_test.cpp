@@ -12,12 +12,13 @@
 namespace exactcsg::csg {
 namespace {
 
+using test::absorbing;
+using test::constants;
+
 constexpr std::uint32_t primitives = 7;
-constexpr auto absorbing = [](Membership m, BooleanOperator op) { return absorbs(m, op); };
 constexpr auto combining = [](Membership a, BooleanOperator op, Membership b) {
   return combine(a, op, b);
 };
-constexpr FullEmptyResult constants{Membership::In, Membership::Out};
 
 using Number = std::uint32_t;
 

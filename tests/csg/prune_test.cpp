@@ -17,6 +17,7 @@ namespace {
 using test::all_assignments;
 using test::below;
 using test::Bits;
+using test::leaf;
 using test::meaning;
 using test::random_tree;
 using test::TestTree;
@@ -116,8 +117,6 @@ TEST(Prune, AgreesWithTruthTablesOnRandomTrees) {
 Flat flat_of(const TestTree& tree) {
   return flatten(tree, [](int p) { return p; });
 }
-TestTree leaf(int i) { return TestTree::primitive(i); }
-
 // What becomes of an operator with an operand 0 that is In or Out: set algebra, by hand.
 TEST(Prune, SimplifiesByTheLawsOfSets) {
   const TestTree full = TestTree::full();

@@ -1,17 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Random trees over numbered primitives, and what they mean, computed in the plainest way.
+// Random trees over numbered primitives, and what they mean, computed in the plainest way; and the
+// functions that the tests hand to the operators on them.
 
 #include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
+#include "exactcsg/csg/text.hpp"
+#include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/csg/tree.hpp"
 
 namespace exactcsg::csg::test {
 
 using TestTree = Tree<int, BooleanOperator>;
+
+inline TestTree leaf(int i) { return TestTree::primitive(i); }
+inline constexpr auto same = [](int i) { return i; };
+
+// A tree as a text, with parentheses round every pair of operands.
+inline constexpr auto text = [](int i) { return std::to_string(i); };
+inline std::string name(BooleanOperator op) { return {BooleanCodes{}(op)}; }
+inline constexpr auto combine_texts = [](std::string a, BooleanOperator op, std::string b) {
+  return "(" + a + " " + name(op) + " " + b + ")";
+};
+inline const FullEmptyResult constant_texts{std::string("full"), std::string("empty")};
+
+inline constexpr auto absorbing = [](Membership m, BooleanOperator op) { return absorbs(m, op); };
+inline constexpr FullEmptyResult constants{Membership::In, Membership::Out};
 
 constexpr BooleanOperator all_operators[] = {BooleanOperator::Union, BooleanOperator::Intersection,
                                              BooleanOperator::Difference,

@@ -30,29 +30,27 @@ namespace {
 
 const tbb::global_control more_threads(tbb::global_control::max_allowed_parallelism, 8);
 
+using test::absorbing;
 using test::all_assignments;
 using test::below;
 using test::Bits;
 using test::chain;
 using test::chain_depth;
+using test::combine_texts;
+using test::constant_texts;
+using test::constants;
+using test::leaf;
 using test::meaning;
 using test::random_tree;
+using test::same;
 using test::Side;
 using test::TestTree;
+using test::text;
 using enum BooleanOperator;
-
-TestTree leaf(int i) { return TestTree::primitive(i); }
-constexpr auto same = [](int i) { return i; };
-constexpr auto text = [](int i) { return std::to_string(i); };
-std::string name(BooleanOperator op) { return {BooleanCodes{}(op)}; }
-constexpr auto combine_texts = [](std::string a, BooleanOperator op, std::string b) {
-  return "(" + a + " " + name(op) + " " + b + ")";
-};
 
 // LAW reduce.1, .2
 TEST(Reduce, IsTheFoldOfTraverse) {
   std::mt19937 random(21);
-  const FullEmptyResult constants{std::string("full"), std::string("empty")};
   for (int round = 0; round < 200; ++round) {
     const TestTree tree = random_tree(random, 5, 6);
     const auto fold = [](BooleanOperator op, std::span<std::string> texts) {
@@ -60,9 +58,9 @@ TEST(Reduce, IsTheFoldOfTraverse) {
       for (const std::string& next : texts.subspan(1)) all = combine_texts(all, op, next);
       return all;
     };
-    const std::string expected = traverse(tree, text, combine_texts, constants);
-    EXPECT_EQ(reduce(tree, text, fold, constants), expected);
-    EXPECT_EQ(reduce(flatten(tree, same), text, fold, constants), expected);
+    const std::string expected = traverse(tree, text, combine_texts, constant_texts);
+    EXPECT_EQ(reduce(tree, text, fold, constant_texts), expected);
+    EXPECT_EQ(reduce(flatten(tree, same), text, fold, constant_texts), expected);
   }
 }
 
@@ -111,7 +109,6 @@ TEST(Reduce, AMillionDeep) {
 // LAW batch.1, .2
 TEST(Batch, IsOneTraversalForEveryQuery) {
   std::mt19937 random(22);
-  const FullEmptyResult constants{Membership::In, Membership::Out};
   std::vector<unsigned> assignments(64);
   for (unsigned i = 0; i < 64; ++i) assignments[i] = i;
   using Asked = std::vector<std::pair<int, unsigned>>;
@@ -122,22 +119,23 @@ TEST(Batch, IsOneTraversalForEveryQuery) {
       asked.push_back({primitive, assignment});
       return (assignment >> primitive) & 1U ? Membership::In : Membership::Out;
     };
-    const auto check = [&](auto absorbing) {
+    const auto check = [&](auto absorbs_or_not) {
       asked.clear();
       std::vector<Membership> expected;
       for (const unsigned a : assignments) {
-        expected.push_back(traverse(tree, a, solve, combine, constants, absorbing));
+        expected.push_back(traverse(tree, a, solve, combine, constants, absorbs_or_not));
       }
       Asked asked_singly = std::exchange(asked, {});
-      ASSERT_EQ(traverse_batch(tree, assignments, solve, combine, constants, absorbing), expected);
+      ASSERT_EQ(traverse_batch(tree, assignments, solve, combine, constants, absorbs_or_not),
+                expected);
       std::sort(asked.begin(), asked.end());
       std::sort(asked_singly.begin(), asked_singly.end());
       ASSERT_EQ(asked, asked_singly);
-      ASSERT_EQ(
-          traverse_batch(flatten(tree, same), assignments, solve, combine, constants, absorbing),
-          expected);
+      ASSERT_EQ(traverse_batch(flatten(tree, same), assignments, solve, combine, constants,
+                               absorbs_or_not),
+                expected);
     };
-    check([](Membership m, BooleanOperator op) { return absorbs(m, op); });
+    check(absorbing);
     check(NeverAbsorbs{});
   }
 }
@@ -151,7 +149,6 @@ TEST(Batch, VisitsWhatSomeQueryNeeds) {
     return primitive == query ? Membership::In : Membership::Out;
   };
   const std::vector<int> queries{1, 0, 1};
-  const auto absorbing = [](Membership m, BooleanOperator op) { return absorbs(m, op); };
   EXPECT_EQ(traverse_batch(tree, queries, solve, combine, NoSpecial{}, absorbing),
             (std::vector<Membership>(3, Membership::In)));
   EXPECT_EQ(asked, (std::vector<std::pair<int, int>>{{0, 1}, {0, 0}, {0, 1}, {1, 1}, {1, 1}}));

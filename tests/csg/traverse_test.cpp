@@ -19,26 +19,22 @@
 namespace exactcsg::csg {
 namespace {
 
+using test::absorbing;
 using test::all_assignments;
 using test::Bits;
 using test::chain;
 using test::chain_depth;
+using test::combine_texts;
+using test::constants;
+using test::leaf;
 using test::meaning;
 using test::random_tree;
+using test::same;
 using test::Side;
 using test::TestTree;
+using test::text;
 using enum BooleanOperator;
 using Flat = FlatTree<int, BooleanOperator>;
-
-TestTree leaf(int i) { return TestTree::primitive(i); }
-constexpr auto same = [](int i) { return i; };
-constexpr auto absorbing = [](Membership m, BooleanOperator op) { return absorbs(m, op); };
-constexpr FullEmptyResult constants{Membership::In, Membership::Out};
-
-constexpr auto combine_texts = [](std::string a, BooleanOperator op, std::string b) {
-  return "(" + a + " " + BooleanCodes{}(op) + " " + b + ")";
-};
-constexpr auto text = [](int i) { return std::to_string(i); };
 
 // LAW traverse.1, by hand: n-ary operators fold from the left.
 TEST(Traverse, FoldsFromTheLeft) {

@@ -24,11 +24,10 @@ namespace {
 
 using test::chain;
 using test::chain_depth;
+using test::leaf;
 using test::Side;
 using test::TestTree;
 using enum BooleanOperator;
-
-TestTree leaf(int i) { return TestTree::primitive(i); }
 
 // Both memory layouts model the concept that the algorithms are written against.
 static_assert(ReadableTree<TestTree>);

@@ -22,22 +22,19 @@ namespace {
 using test::all_assignments;
 using test::chain;
 using test::chain_depth;
+using test::combine_texts;
+using test::constant_texts;
+using test::leaf;
 using test::meaning;
+using test::name;
 using test::random_tree;
+using test::same;
 using test::Side;
 using test::TestTree;
+using test::text;
 using enum BooleanOperator;
 
 static_assert(ReadableTree<BinaryView<int, BooleanOperator>>);
-
-TestTree leaf(int i) { return TestTree::primitive(i); }
-constexpr auto same = [](int i) { return i; };
-constexpr auto text = [](int i) { return std::to_string(i); };
-std::string name(BooleanOperator op) { return {BooleanCodes{}(op)}; }
-constexpr auto combine_texts = [](std::string a, BooleanOperator op, std::string b) {
-  return "(" + a + " " + name(op) + " " + b + ")";
-};
-const FullEmptyResult constant_texts{std::string("full"), std::string("empty")};
 
 std::size_t most_operands(const TestTree& tree) {
   if (!tree.is_compose()) return 0;
