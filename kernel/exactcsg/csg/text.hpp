@@ -141,10 +141,6 @@ class OpenNodes {
   std::vector<Tree<P, O>> done_;
 };
 
-}  // namespace detail
-
-namespace detail {
-
 // begin_operator(const O&) and primitive(const P&) write a node up to its operands.
 template <class T, class BeginOperator, class WritePrimitive>
 void put_nodes(TextWriter& out, const T& tree, BeginOperator&& begin_operator,

@@ -2,7 +2,7 @@
 #pragma once
 
 // The third and fourth tier: one formula, evaluated in the narrowest integers that a bound on its
-// bits allows: 128 bits, stack limbs, or unbounded. Private to number/. [Exact]
+// bits allows: 128 bits, stack limbs, or unbounded. Private to the kernel. [Exact]
 
 #include "exactcsg/number/exact.hpp"
 #include "exactcsg/number/stack_integer.hpp"
