@@ -8,6 +8,7 @@
 #include "exactcsg/io/planar/substitute.hpp"
 #include "exactcsg/io/planar/unions.hpp"
 #include "exactcsg/solid/evaluate.hpp"
+#include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg::io {
@@ -46,7 +47,7 @@ Point3 sum(const Point3& p, const Point3& q) { return {p.x + q.x, p.y + q.y, p.z
 // A polygon with holes in a plane, cut into convex pieces in the coordinate plane that it leans
 // against least, and lifted again.
 void add_pieces(const Boundary& boundary, const BoundaryFace& face, std::vector<Corners>& pieces) {
-  const Plane& plane = boundary.planes[face.plane];
+  const Plane plane = exact_plane(boundary, face);
   const std::array<const Integer*, 3> normal{&plane.a, &plane.b, &plane.c};
   std::size_t up = 2;
   if (*normal[up] == 0) up = *normal[1] != 0 ? 1 : 0;

@@ -7,6 +7,7 @@
 #include "exactcsg/io/planar/substitute.hpp"
 #include "exactcsg/io/planar/unions.hpp"
 #include "exactcsg/solid/evaluate.hpp"
+#include "exactcsg/solid/face_planes.hpp"
 
 namespace exactcsg::io {
 
@@ -57,7 +58,7 @@ void add_section(const Solid& solid, int side, std::vector<PlanarTree>& figures)
   const Boundary boundary =
       evaluate(Solid::compose(csg::BooleanOperator::Intersection, {solid, Solid::primitive(half)}));
   for (const BoundaryFace& face : boundary.faces) {
-    const Plane& plane = boundary.planes[face.plane];
+    const Plane plane = exact_plane(boundary, face);
     if (plane.a != 0 || plane.b != 0 || plane.d != 0 || sgn(plane.c) != side) continue;
     figures.push_back(PlanarTree::primitive(figure_of(boundary, face)));
   }
@@ -82,7 +83,7 @@ PlanarTree shadow(const Solid& solid) {
   } else {
     const Boundary boundary = evaluate(solid);
     for (const BoundaryFace& face : boundary.faces) {
-      if (boundary.planes[face.plane].c > 0) {
+      if (exact_plane(boundary, face).c > 0) {
         figures.push_back(PlanarTree::primitive(figure_of(boundary, face)));
       }
     }
