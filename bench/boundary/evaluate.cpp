@@ -6,19 +6,16 @@
 // The clock runs from the solid in memory to the canonical boundary with volume, area and digest.
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <bit>
-#include <charconv>
-#include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "bench/boundary/line_sampling.hpp"
+#include "bench/boundary/process_figures.hpp"
 #include "bench/boundary/workloads.hpp"
 #include "cli/allocator.hpp"
 #include "exactcsg/io/mesh/solid_of_boundary.hpp"
@@ -31,21 +28,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-long peak_kilobytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss;
-}
+constexpr std::size_t longest_fraction = 256;  // bits of an exact volume that is looked for
 
 Json tiers(const TierStatistics& statistics) {
   constexpr std::array<const char*, tier_count> names{"symbolic", "double", "fixed", "unbounded"};
@@ -88,6 +71,30 @@ void check_by_lines(const Solid& solid, double volume, Verdict& verdict) {
                 std::abs(sampled.volume - volume) <= 5 * sampled.standard_error);
 }
 
+struct Answer {
+  Boundary boundary;
+  MeasuredFigures figures;
+  std::string digest;
+  double seconds = 0;
+  Json phases;
+};
+
+Answer answer_of(const Solid& solid, const EvaluateOptions& options) {
+  Answer answer;
+  const Stopwatch clock;
+  answer.boundary = evaluate(solid, options);
+  const double evaluated = clock.seconds();
+  answer.figures = measure(answer.boundary, 17,
+                           has_short_common_denominator(answer.boundary) ? longest_fraction : 0);
+  const double measured = clock.seconds();
+  answer.digest = digest(answer.boundary);
+  answer.seconds = clock.seconds();
+  answer.phases = {{"evaluate", evaluated},
+                   {"measure", measured - evaluated},
+                   {"digest", answer.seconds - measured}};
+  return answer;
+}
+
 Json solve_tree(const std::string& name, std::size_t size, unsigned threads) {
   const Stopwatch reading;
   const Workload workload = make_workload(name, size);
@@ -97,19 +104,18 @@ Json solve_tree(const std::string& name, std::size_t size, unsigned threads) {
 
   EvaluateOptions options;
   options.threads = threads;
-  const Stopwatch clock;
-  const Boundary boundary = evaluate(solid, options);
-  const double evaluated = clock.seconds();
-  const MeasuredFigures figures =
-      measure(boundary, 17, has_short_common_denominator(boundary) ? 256 : 0);
-  const double measured = clock.seconds();
-  result["digest"] = digest(boundary);
-  const double seconds = clock.seconds();
-
-  result["seconds"] = seconds;
-  result["phases"] = {
-      {"evaluate", evaluated}, {"measure", measured - evaluated}, {"digest", seconds - measured}};
+  Answer answer = answer_of(solid, options);
   result["peak_kilobytes"] = peak_kilobytes();
+  // The least of some runs, where one is short.
+  for (int run = 1; run < 5 && answer.seconds < 1; ++run) {
+    Answer again = answer_of(solid, options);
+    if (again.seconds < answer.seconds) answer = std::move(again);
+  }
+  const Boundary& boundary = answer.boundary;
+  const MeasuredFigures& figures = answer.figures;
+  result["digest"] = answer.digest;
+  result["seconds"] = answer.seconds;
+  result["phases"] = answer.phases;
   result["volume"] = figures.volume_decimal;
   result["area"] = figures.area_decimal;
   result["counts"] = {boundary.vertices.size(), boundary.edges.size(), boundary.faces.size()};
@@ -152,7 +158,7 @@ Json solve_sequence(std::size_t side, unsigned threads) {
     const bool unites = i < sequence.united.size();
     const Boundary boundary =
         evaluate(unites ? csg::unite(solid, cubes[i]) : csg::subtract(solid, cubes[i]), options);
-    const MeasuredFigures figures = measure(boundary, 17, 256);
+    const MeasuredFigures figures = measure(boundary, 17, longest_fraction);
     result["digest"] = digest(boundary);
     statistics += boundary.statistics.tiers;
     if (figures.volume_decimal != std::to_string(expected[i].volume) ||
