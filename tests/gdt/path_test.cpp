@@ -96,18 +96,21 @@ Tree<int, Coordinates<int, 2>> random_unequal(std::mt19937& random, const Cell<i
   return T::interior(std::move(quadrants), meet);
 }
 
-// Every check of this file on every kind of division.
+// Every check of this file on every kind of division, with all its cells.
 template <class Check>
 void on_every_division(unsigned seed, Check&& check) {
   std::mt19937 random(seed);
+  const auto check_on = [&](const auto& tree, const auto& cell, const auto& division) {
+    check(random, tree, cell, division, cells_of(tree, cell, division));
+  };
   for (int round = 0; round < 12; ++round) {
-    check(random, random_orthants<2>(random, 4, 9), cube<2>(16), Orthants{});  // quadtree
-    check(random, random_orthants<3>(random, 3, 9), cube<3>(8), Orthants{});   // octree
-    const auto halves = random_halves(random, 9);                              // axes in turn
-    check(random, halves, TurningCell{cube<3>(8)}, HalvesInTurn{});
+    check_on(random_orthants<2>(random, 4, 9), cube<2>(16), Orthants{});  // quadtree
+    check_on(random_orthants<3>(random, 3, 9), cube<3>(8), Orthants{});   // octree
+    const auto halves = random_halves(random, 9);                         // axes in turn
+    check_on(halves, TurningCell{cube<3>(8)}, HalvesInTurn{});
     const auto chosen = random_cuts(random, cube<3>(8), 8, 9);  // axis and place chosen
-    check(random, chosen, cube<3>(8), Cuts{});
-    check(random, random_unequal(random, cube<2>(16), 4), cube<2>(16), Orthants{});
+    check_on(chosen, cube<3>(8), Cuts{});
+    check_on(random_unequal(random, cube<2>(16), 4), cube<2>(16), Orthants{});
   }
 }
 
@@ -136,27 +139,27 @@ TEST(Path, GoesDownAndUp) {
 
 // LAW cell.1 and locate.1
 TEST(Path, LocatesPoints) {
-  on_every_division(1, [](auto&, const auto& tree, const auto& cell, const auto& division) {
-    constexpr std::size_t dimension = std::tuple_size_v<decltype(cell.lower)>;
-    const auto all = cells_of(tree, cell, division);
-    for_each_point<dimension>(cell.upper[0], [&](const auto& point) {
-      const auto path = locate(tree, cell, division, point);
-      ASSERT_TRUE(contains(path.cell(), point));
-      const auto holds = [&](const auto& entry) { return contains(entry.second, point); };
-      ASSERT_EQ(std::ranges::count_if(all, holds), 1);
-      ASSERT_EQ(path.node().terminal(), std::ranges::find_if(all, holds)->first);
-    });
-  });
+  on_every_division(
+      1, [](auto&, const auto& tree, const auto& cell, const auto& division, const auto& all) {
+        constexpr std::size_t dimension = std::tuple_size_v<decltype(cell.lower)>;
+        for_each_point<dimension>(cell.upper[0], [&](const auto& point) {
+          const auto path = locate(tree, cell, division, point);
+          ASSERT_TRUE(contains(path.cell(), point));
+          const auto holds = [&](const auto& entry) { return contains(entry.second, point); };
+          ASSERT_EQ(std::ranges::count_if(all, holds), 1);
+          ASSERT_EQ(path.node().terminal(), std::ranges::find_if(all, holds)->first);
+        });
+      });
   const auto tree = Tree<int>::terminal(1);
   EXPECT_THROW(locate(tree, cube<1>(4), Orthants{}, std::array{4}), Error);
 }
 
 // LAW neighbours.1
 TEST(Path, FindsNeighboursAcrossEveryFace) {
-  on_every_division(2, [](auto& random, const auto& tree, const auto& cell, const auto& division) {
+  on_every_division(2, [](auto& random, const auto& tree, const auto& cell, const auto& division,
+                          const auto& all) {
     using C = std::remove_cvref_t<decltype(cell)>;
     constexpr std::size_t dimension = std::tuple_size_v<decltype(cell.lower)>;
-    const auto all = cells_of(tree, cell, division);
     for (int query = 0; query < 20; ++query) {
       Coordinates<int, dimension> point;
       for (int& x : point) x = below(random, cell.upper[0]);
@@ -190,10 +193,10 @@ TEST(Path, FindsNeighboursAcrossEveryFace) {
 // LAW ray.1: the parts found are those of all cells, clipped one by one and sorted; they follow
 // each other without gap and overlap.
 TEST(RayWalk, PassesEveryCellOnceInOrder) {
-  on_every_division(3, [](auto& random, const auto& tree, const auto& cell, const auto& division) {
+  on_every_division(3, [](auto& random, const auto& tree, const auto& cell, const auto& division,
+                          const auto& all) {
     using C = std::remove_cvref_t<decltype(cell)>;
     constexpr std::size_t dimension = std::tuple_size_v<decltype(cell.lower)>;
-    const auto all = cells_of(tree, cell, division);
     for (int query = 0; query < 12; ++query) {
       Ray<Rational, dimension> ray;
       for (std::size_t axis = 0; axis < dimension; ++axis) {
