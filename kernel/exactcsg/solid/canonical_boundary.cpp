@@ -63,6 +63,32 @@ struct PieceEdge {
   PieceNumber piece;
 };
 
+struct Position {
+  VertexNumber number = 0;
+  std::array<double, 3> approximate{};  // nearest
+  Point3 exact;
+};
+
+// Rounding to nearest is monotone: exact numbers are compared only where doubles are equal.
+bool lexicographically_less(const Position& p, const Position& q) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (p.approximate[axis] != q.approximate[axis])
+      return p.approximate[axis] < q.approximate[axis];
+    const Rational& mine = coordinate(p.exact, axis);
+    const Rational& other = coordinate(q.exact, axis);
+    if (mine != other) return mine < other;
+  }
+  return false;
+}
+
+void sort_lexicographically(std::vector<Position>& positions) {
+  const auto x = [](const Position& position) { return position.approximate[0]; };
+  const DoubleBuckets buckets(positions, x);
+  sort_in_buckets(
+      positions, buckets.count(), [&](const Position& position) { return buckets.of(x(position)); },
+      lexicographically_less);
+}
+
 // Part of a line that bounds pieces of one oriented plane on one side only.
 struct Segment {
   OrientedPlaneRef plane;
@@ -761,14 +787,9 @@ class Merger {
     }
     const std::size_t count_on_lines = edges.size();
     std::vector<SingleFace> singles = single_faces(edges);
-    const std::vector<VertexNumber> used = sorted_vertices();
-    std::vector<VertexNumber> renumbered(vertices_.size(), none);
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      renumbered[used[i]] = static_cast<VertexNumber>(i);
-    }
     Boundary boundary;
     boundary.edges.reserve(count_on_lines + settled_edges_.size());
-    set_positions(used, boundary);
+    const std::vector<VertexNumber> renumbered = set_vertices(boundary);
     check();
     const auto add_edge_between = [&](VertexNumber from, VertexNumber to) {
       const auto [low, high] = std::minmax(renumbered[from], renumbered[to]);
@@ -786,8 +807,8 @@ class Merger {
       for (VertexNumber& vertex : face.loop) vertex = renumbered[vertex];
     }
     sort_in_buckets(
-        boundary.edges, used.size(), [](const BoundaryEdge& edge) { return edge.from; },
-        std::less<>());
+        boundary.edges, boundary.vertices.size(),
+        [](const BoundaryEdge& edge) { return edge.from; }, std::less<>());
     boundary.edges.erase(std::unique(boundary.edges.begin(), boundary.edges.end()),
                          boundary.edges.end());
     link_faces(geometry_, std::move(edges), std::move(singles), boundary);
@@ -797,48 +818,40 @@ class Merger {
   }
 
   // Input points are copied; meeting points, which take long, are computed in parallel.
-  void set_positions(const std::vector<VertexNumber>& used, Boundary& boundary) const {
-    boundary.vertices.reserve(used.size());
-    for (const VertexNumber number : used) {
-      const Vertex& v = vertices_[number];
-      if (v.is_point) {
-        boundary.vertices.push_back(geometry_.point(v.point));
-      } else {
-        boundary.vertices.emplace_back();
-      }
-    }
-    boundary.approximate.resize(used.size());
+  std::vector<Position> positions_of(const std::vector<VertexNumber>& used) const {
+    std::vector<Position> positions(used.size());
     in_parallel(threads_, used.size(), [&](std::size_t i) {
       const Vertex& v = vertices_[used[i]];
-      Point3& point = boundary.vertices[i];
-      if (!v.is_point) point = geometry_.exact_point(v);
+      Position& position = positions[i];
+      position.number = used[i];
+      position.exact = v.is_point ? geometry_.point(v.point) : geometry_.exact_point(v);
       // An input point's doubles are the nearest ones already.
-      boundary.approximate[i] = v.is_point && std::isfinite(v.error)
-                                    ? std::array{v.x, v.y, v.z}
-                                    : std::array{nearest_double(point.x), nearest_double(point.y),
-                                                 nearest_double(point.z)};
+      position.approximate =
+          v.is_point && std::isfinite(v.error)
+              ? std::array{v.x, v.y, v.z}
+              : std::array{nearest_double(position.exact.x), nearest_double(position.exact.y),
+                           nearest_double(position.exact.z)};
     });
+    return positions;
   }
 
-  // The vertices in lexicographic order; doubles decide nearly always.
-  std::vector<VertexNumber> sorted_vertices() {
-    std::vector<KeyInterval> along_x;
+  // Sets boundary.vertices and boundary.approximate. The new number of each vertex.
+  std::vector<VertexNumber> set_vertices(Boundary& boundary) const {
+    std::vector<VertexNumber> used;
     for (VertexNumber v = 0; v < vertices_.size(); ++v) {
-      if (!is_vertex_[v]) continue;
-      const double slack = vertices_[v].error * (1 + 0x1p-50) + 0x1p-51 * std::abs(vertices_[v].x);
-      along_x.push_back({vertices_[v].x - slack, vertices_[v].x + slack, v});
+      if (is_vertex_[v]) used.push_back(v);
     }
-    std::vector<VertexNumber> result;
-    result.reserve(along_x.size());
-    for_each_cluster(along_x, [&](std::span<KeyInterval> cluster) {
-      std::sort(cluster.begin(), cluster.end(), [&](const KeyInterval& a, const KeyInterval& b) {
-        if (a.upper < b.lower || b.upper < a.lower) return a.upper < b.lower;
-        return a.item != b.item &&
-               geometry_.compare_position(vertices_[a.item], vertices_[b.item], statistics_) < 0;
-      });
-      for (const KeyInterval& key : cluster) result.push_back(key.item);
-    });
-    return result;
+    std::vector<Position> positions = positions_of(used);
+    sort_lexicographically(positions);
+    std::vector<VertexNumber> renumbered(vertices_.size(), none);
+    boundary.vertices.reserve(positions.size());
+    boundary.approximate.reserve(positions.size());
+    for (Position& position : positions) {
+      renumbered[position.number] = static_cast<VertexNumber>(boundary.vertices.size());
+      boundary.vertices.push_back(std::move(position.exact));
+      boundary.approximate.push_back(position.approximate);
+    }
+    return renumbered;
   }
 
   const Scene& scene_;
