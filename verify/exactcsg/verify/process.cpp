@@ -147,6 +147,7 @@ pid_t fork_or_throw() {
 ProcessResult run_program(const std::vector<std::string>& command,
                           const std::filesystem::path& folder, const ProcessLimits& limits) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   Pipe output;
