@@ -145,6 +145,7 @@ class LawRun {
 
   std::vector<VolumeSum> volumes(const std::vector<Solid>& solids) const {
     std::vector<VolumeSum> result;
+    result.reserve(solids.size());
     for (const Solid& solid : solids) result.push_back(volume_sum(boundary_of(solid)));
     return result;
   }

@@ -237,6 +237,7 @@ WeldedMesh weld(const io::PolygonSoup& soup, double model_rounding) {
   }
   for (const auto& corners : soup.facets) {
     std::vector<std::uint32_t> facet;
+    facet.reserve(corners.size());
     for (const std::uint32_t v : corners) facet.push_back(index[v]);
     facet = without_repetitions(facet);
     if (facet.size() < 3) {
