@@ -351,7 +351,7 @@ void points_experiment() {
   }
   if (classify_all(*tree, points, classes, two) != inside) wrong("points in parallel");
   const OneAndTwo times = seconds_by_turns([&] { classify_all(*tree, points, classes, one); },
-                                           [&] { classify_all(*tree, points, classes, two); }, 15);
+                                           [&] { classify_all(*tree, points, classes, two); }, 7);
   const Mesh mesh = mesh_of_octahedra();
   const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(mesh);
   const auto by_mesh = [&](const Vector& p) {

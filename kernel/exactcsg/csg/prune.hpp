@@ -252,7 +252,9 @@ class Pruner {
   std::vector<Frame>& frames_;
 };
 
-// Builds a tree of handles, every composed node after its operands.
+// Builds a tree of handles, every composed node after its operands. Handles of the source are not
+// copied before they are needed: copies count references, on which threads that prune trees with
+// common nodes would wait for each other.
 template <class P, class O>
 class HandleSink {
  public:
@@ -266,16 +268,17 @@ class HandleSink {
     if (known == known_.end()) return std::nullopt;
     if (known->second.is_empty()) return Pruned::Empty;
     if (known->second.is_full()) return Pruned::Full;
-    kept_.push_back(known->second);
+    keep(known->second);
     return Pruned::Kept;
   }
   void remember(Cursor node, Pruned outcome) {
     if (node.tree().is_shared()) known_.emplace(node.tree().identity(), value(outcome));
   }
   Mark begin() const noexcept { return kept_.size(); }
-  void keep(Cursor node) { kept_.push_back(node.tree()); }
+  void keep(Cursor node) { keep(node.tree()); }
   void keep(Constant constant) {
-    kept_.push_back(constant == Constant::Full ? Tree<P, O>::full() : Tree<P, O>::empty());
+    kept_.push_back(
+        {nullptr, constant == Constant::Full ? Tree<P, O>::full() : Tree<P, O>::empty()});
   }
   void discard(Mark mark) { kept_.resize(mark); }
   void collapse(Mark) noexcept {}
@@ -285,13 +288,16 @@ class HandleSink {
     const auto before = node.tree().children();
     const bool unchanged =
         std::equal(first, kept_.end(), before.begin(), before.end(),
-                   [](const Tree<P, O>& a, const Tree<P, O>& b) { return same_handle(a, b); });
-    Tree<P, O> result = node.tree();
-    if (!unchanged) {
-      result = Tree<P, O>::compose_from(node.operation(), std::span(first, kept_.end()));
+                   [](const Kept& a, const Tree<P, O>& b) { return same_handle(a.tree(), b); });
+    if (unchanged) {
+      discard(mark);
+      return keep(node);
     }
+    for (auto kept = first; kept != kept_.end(); ++kept) operands_.push_back(kept->take());
+    auto composed = Tree<P, O>::compose_from(node.operation(), std::span(operands_));
+    operands_.clear();
     discard(mark);
-    kept_.push_back(std::move(result));
+    kept_.push_back({nullptr, std::move(composed)});
   }
   // REQUIRES the last to be done had this outcome.
   Tree<P, O> value(Pruned outcome) const {
@@ -303,11 +309,22 @@ class HandleSink {
       case Pruned::Kept:
         break;
     }
-    return kept_.back();
+    return kept_.back().tree();
   }
 
  private:
-  std::vector<Tree<P, O>> kept_;
+  // A handle of the source or of known_, or one of our own.
+  struct Kept {
+    const Tree<P, O>* lent;
+    Tree<P, O> own;
+    const Tree<P, O>& tree() const noexcept { return lent != nullptr ? *lent : own; }
+    Tree<P, O> take() noexcept { return lent != nullptr ? *lent : std::move(own); }
+  };
+
+  void keep(const Tree<P, O>& lent) { kept_.push_back({&lent, {}}); }
+
+  std::vector<Kept> kept_;
+  std::vector<Tree<P, O>> operands_;
   std::unordered_map<const void*, Tree<P, O>> known_;
 };
 

@@ -9,7 +9,8 @@
 //                 On otherwise, also where boundaries coincide: it is decided by the cells of its
 //                 neighbourhood (neighbourhood.hpp).
 // LAW classify.2  a box that is In (Out) is a subset of the set (has no inner point in common with
-//                 it). Unknown is conservative: mixed, or not told by the primitives one by one.
+//                 it). Unknown is conservative: mixed, or not told by the primitives one by one;
+//                 the former if at most one occurrence of a primitive is mixed that matters.
 // LAW classify.3  section(tree, line).between[i] is the class of the points between two crossings;
 //                 the crossings are all those of the primitives, those that are equal added up, so
 //                 that neighbouring classes may be the same. (simplified() leaves those out.)

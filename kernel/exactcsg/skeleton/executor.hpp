@@ -229,8 +229,8 @@ typename A::Result run_sequentially(typename A::Problem root, A& algorithm,
   return SequentialRun<A, Interrupt>(algorithm, interrupt)(std::move(root));
 }
 
-// Thrown in a task whose group another task has failed (oneTBB drops it for the other's exception),
-// or whose result is not wanted any more.
+// Thrown in a task after another has failed, or an enclosing group of tasks was cancelled, or where
+// its result is not wanted any more. It does not leave the run.
 struct Interrupted {};
 
 // Which of several siblings, in their order, is the last that counts.
@@ -272,13 +272,42 @@ class ParallelRun {
   ParallelRun(A& algorithm, const WorthATask& worth_a_task)
       : algorithm_(algorithm), worth_a_task_(worth_a_task) {}
 
-  Result operator()(Problem problem, unsigned levels, const Place& place = {}) const {
-    const auto interrupt = [&] {
-      if (tbb::is_current_task_group_canceling()) throw Interrupted{};
+  // None if it was interrupted. THROWS what a callback threw, or one of several.
+  std::optional<Result> run(Problem problem, unsigned levels) {
+    try {
+      return solved(std::move(problem), levels, Place{});
+    } catch (const Interrupted&) {
+      if (failure_) std::rethrow_exception(failure_);
+      return std::nullopt;
+    }
+  }
+
+ private:
+  struct Slot {
+    std::optional<Result> result;
+    std::exception_ptr failure;
+  };
+
+  // Asked before every step. What oneTBB knows costs more to ask, and is asked less often.
+  class Interrupt {
+   public:
+    Interrupt(const ParallelRun& run, const Place& place) : run_(run), place_(place) {}
+    void operator()() {
+      if (run_.has_failed_.load(std::memory_order_relaxed)) throw Interrupted{};
+      if (steps_++ % 64 == 0 && tbb::is_current_task_group_canceling()) throw Interrupted{};
       if constexpr (StopsEarly<A>) {
-        if (place.is_superfluous()) throw Interrupted{};
+        if (place_.is_superfluous()) throw Interrupted{};
       }
-    };
+    }
+
+   private:
+    const ParallelRun& run_;
+    const Place& place_;
+    unsigned steps_ = 0;
+  };
+
+  Result solved(Problem problem, unsigned levels, const Place& place) {
+    Interrupt interrupt(*this, place);
     interrupt();
     if (levels == 0 || !worth_a_task_(std::as_const(problem))) {
       return run_sequentially(std::move(problem), algorithm_, interrupt);
@@ -292,14 +321,8 @@ class ParallelRun {
     return algorithm_.combine(std::span(results.data(), results.size()), std::move(problem));
   }
 
- private:
-  struct Slot {
-    std::optional<Result> result;
-    std::exception_ptr failure;
-  };
-
   Array<Result> all(std::vector<Problem>& parts, [[maybe_unused]] const Problem& problem,
-                    unsigned levels, const Place& place) const {
+                    unsigned levels, const Place& place) {
     std::vector<Slot> slots(parts.size());
     LastThatCounts last(parts.size());
     const auto solve = [&](std::size_t i) {
@@ -307,7 +330,7 @@ class ParallelRun {
         solve_unless_superfluous(parts[i], problem, levels, Place{&last, i, &place}, slots[i],
                                  last);
       } else {
-        slots[i].result.emplace((*this)(std::move(parts[i]), levels));
+        solve_or_fail(parts[i], levels, place, slots[i]);
       }
     };
     const TakeOverAtEnd before_unwinding(&slots);
@@ -324,12 +347,24 @@ class ParallelRun {
     return results_of(slots, last.index());
   }
 
+  // The first exception ends the run; it comes out even if those that it interrupts are seen first.
+  void solve_or_fail(Problem& part, unsigned levels, const Place& place, Slot& slot) {
+    try {
+      slot.result.emplace(solved(std::move(part), levels, place));
+    } catch (const Interrupted&) {
+      throw;
+    } catch (...) {
+      if (!has_failed_.exchange(true)) failure_ = std::current_exception();
+      throw Interrupted{};
+    }
+  }
+
   // Exceptions wait in the slots: whether they come out is known when all siblings to the left are
   // done.
   void solve_unless_superfluous(Problem& part, const Problem& problem, unsigned levels,
-                                const Place& place, Slot& slot, LastThatCounts& last) const {
+                                const Place& place, Slot& slot, LastThatCounts& last) {
     try {
-      slot.result.emplace((*this)(std::move(part), levels, place));
+      slot.result.emplace(solved(std::move(part), levels, place));
       if (algorithm_.enough(std::as_const(*slot.result), problem)) last.lower_to(place.index);
     } catch (const Interrupted&) {
     } catch (...) {
@@ -351,6 +386,8 @@ class ParallelRun {
 
   A& algorithm_;
   const WorthATask& worth_a_task_;
+  std::atomic<bool> has_failed_ = false;
+  std::exception_ptr failure_;
 };
 
 }  // namespace detail
@@ -385,7 +422,7 @@ class ParallelExecutor {
   template <DivideAndConquer A>
   requires std::predicate<const WorthATask&, const typename A::Problem&>
   typename A::Result run(typename A::Problem problem, A& algorithm) const {
-    const detail::ParallelRun<A, WorthATask> parallel(algorithm, worth_a_task_);
+    detail::ParallelRun<A, WorthATask> parallel(algorithm, worth_a_task_);
     std::optional<typename A::Result> result;
     tbb::task_arena arena(concurrency());
     const detail::TakeOverAtEnd before_unwinding(&result);
@@ -394,7 +431,7 @@ class ParallelExecutor {
       detail::take_over(&arena);
       const detail::HandOverAtEnd done(&result);
       tbb::task_group group;  // so that an outer computation's cancellation is not taken for ours
-      group.run_and_wait([&] { result.emplace(parallel(std::move(problem), levels_)); });
+      group.run_and_wait([&] { result = parallel.run(std::move(problem), levels_); });
     });
     detail::take_over(&result);
     if (!result) throw Error(ErrorId::Cancelled, {"an enclosing group of tasks", ""});
