@@ -66,7 +66,7 @@ struct PieceEdge {
 struct Position {
   VertexNumber number = 0;
   std::array<double, 3> approximate{};  // nearest
-  Point3 exact;
+  const Point3* exact = nullptr;
 };
 
 // Rounding to nearest is monotone: exact numbers are compared only where doubles are equal.
@@ -74,8 +74,8 @@ bool lexicographically_less(const Position& p, const Position& q) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (p.approximate[axis] != q.approximate[axis])
       return p.approximate[axis] < q.approximate[axis];
-    const Rational& mine = coordinate(p.exact, axis);
-    const Rational& other = coordinate(q.exact, axis);
+    const Rational& mine = coordinate(*p.exact, axis);
+    const Rational& other = coordinate(*q.exact, axis);
     if (mine != other) return mine < other;
   }
   return false;
@@ -817,21 +817,35 @@ class Merger {
     return boundary;
   }
 
-  // Input points are copied; meeting points, which take long, are computed in parallel.
-  std::vector<Position> positions_of(const std::vector<VertexNumber>& used) const {
+  // Meeting points, which take long to compute, are put into `computed`.
+  std::vector<Position> positions_of(const std::vector<VertexNumber>& used,
+                                     std::vector<Point3>& computed) const {
     std::vector<Position> positions(used.size());
-    in_parallel(threads_, used.size(), [&](std::size_t i) {
+    std::vector<std::size_t> meeting_points;
+    for (std::size_t i = 0; i < used.size(); ++i) {
       const Vertex& v = vertices_[used[i]];
-      Position& position = positions[i];
-      position.number = used[i];
-      position.exact = v.is_point ? geometry_.point(v.point) : geometry_.exact_point(v);
-      // An input point's doubles are the nearest ones already.
-      position.approximate =
-          v.is_point && std::isfinite(v.error)
-              ? std::array{v.x, v.y, v.z}
-              : std::array{nearest_double(position.exact.x), nearest_double(position.exact.y),
-                           nearest_double(position.exact.z)};
+      positions[i].number = used[i];
+      if (v.is_point) {
+        positions[i].exact = &geometry_.point(v.point);
+      } else {
+        meeting_points.push_back(i);
+      }
+    }
+    computed.resize(meeting_points.size());
+    in_parallel(threads_, meeting_points.size(), [&](std::size_t k) {
+      const std::size_t i = meeting_points[k];
+      computed[k] = geometry_.exact_point(vertices_[used[i]]);
+      positions[i].exact = &computed[k];
     });
+    for (Position& position : positions) {
+      const Vertex& v = vertices_[position.number];
+      const Point3& exact = *position.exact;
+      // An input point's doubles are the nearest ones already.
+      position.approximate = v.is_point && std::isfinite(v.error)
+                                 ? std::array{v.x, v.y, v.z}
+                                 : std::array{nearest_double(exact.x), nearest_double(exact.y),
+                                              nearest_double(exact.z)};
+    }
     return positions;
   }
 
@@ -841,14 +855,15 @@ class Merger {
     for (VertexNumber v = 0; v < vertices_.size(); ++v) {
       if (is_vertex_[v]) used.push_back(v);
     }
-    std::vector<Position> positions = positions_of(used);
+    std::vector<Point3> computed;
+    std::vector<Position> positions = positions_of(used, computed);
     sort_lexicographically(positions);
     std::vector<VertexNumber> renumbered(vertices_.size(), none);
     boundary.vertices.reserve(positions.size());
     boundary.approximate.reserve(positions.size());
-    for (Position& position : positions) {
+    for (const Position& position : positions) {
       renumbered[position.number] = static_cast<VertexNumber>(boundary.vertices.size());
-      boundary.vertices.push_back(std::move(position.exact));
+      boundary.vertices.push_back(*position.exact);
       boundary.approximate.push_back(position.approximate);
     }
     return renumbered;
