@@ -109,8 +109,8 @@ struct SettledEdge {
   PlaneRef first;
   PlaneRef second;  // first < second
   VertexNumber from;
-  VertexNumber to;  // from < to
-  PrimitiveIndex primitive;
+  VertexNumber to;         // from < to
+  std::uint32_t polytope;  // the convex primitive, or none
 };
 
 // The only piece in its plane.
@@ -218,7 +218,7 @@ class Merger {
       // The facet on the other side walks it from `to` to `from`.
       if (from > to) continue;
       const auto [first, second] = std::minmax(piece.plane.plane, corners[i].side_plane);
-      settled_edges_.push_back({first, second, from, to, scene_.facets[piece.facet].primitive});
+      settled_edges_.push_back({first, second, from, to, polytope_of(piece)});
     }
     if (piece.corner_sense != piece.plane.sense) {
       // Corners and the sides between them, backwards from the same corner.
@@ -481,8 +481,8 @@ class Merger {
     }
     for (std::size_t i = 0; i < settled_edges_.size(); ++i) {
       const SettledEdge& edge = settled_edges_[i];
-      result.push_back({static_cast<LineNumber>(lines_.size() + i), edge.from, edge.to,
-                        scene_.primitives[edge.primitive].convex ? edge.primitive : none});
+      result.push_back(
+          {static_cast<LineNumber>(lines_.size() + i), edge.from, edge.to, edge.polytope});
     }
     return result;
   }
@@ -619,34 +619,10 @@ class Merger {
             geometry_.side(vertices_[span.to], plane, statistics_)};
   }
 
-  // Spans of one line have one number, but for settled edges of different primitives.
-  bool may_be_collinear(const Span& a, const Span& b) const {
-    if (is_settled(a) && is_settled(b)) {
-      return settled_edge(a).primitive != settled_edge(b).primitive;
-    }
-    return is_settled(a) || is_settled(b);
-  }
-
-  bool collinear(const Span& a, const Span& b) {
-    const std::array<PlaneRef, 2> planes = planes_of(b);
-    return std::all_of(planes.begin(), planes.end(), [&](PlaneRef plane) {
-      return sides(a, plane) == std::array{Sign::Zero, Sign::Zero};
-    });
-  }
-
-  // The ends of either that lie on the other. REQUIRES both are of one line.
-  void overlap(const Span& a, const Span& b) {
-    for (const VertexNumber end : {a.from, a.to}) {
-      if (end != b.from && end != b.to && within(vertices_[end], b)) add_station(b, end);
-    }
-    for (const VertexNumber end : {b.from, b.to}) {
-      if (end != a.from && end != a.to && within(vertices_[end], a)) add_station(a, end);
-    }
-  }
-
+  // Spans of one line may overlap where one of them is a settled edge, whose line has no number:
+  // where such a span ends inside another, so do edges of other directions, which touch it there.
   void touch(const Span& a, const Span& b) {
     if (a.line == b.line) return;
-    if (may_be_collinear(a, b) && collinear(a, b)) return overlap(a, b);
     if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) return;
     const std::array<PlaneRef, 2> planes_a = planes_of(a);
     const std::array<PlaneRef, 2> planes_b = planes_of(b);
