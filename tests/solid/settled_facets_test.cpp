@@ -67,7 +67,10 @@ TEST_P(SettledFacetsOnAGrid, AreTheBoundaryThatMergingFinds) {
         merged = csg::unite(merged, in_parts(body));
       }
     }
-    const Boundary a = evaluate(direct);
+    // Small cells, so that some hold facets of one body only.
+    EvaluateOptions options;
+    options.facets_per_cell = static_cast<std::size_t>(3 + round % 12);
+    const Boundary a = evaluate(direct, options);
     const Boundary b = evaluate(merged);
     ASSERT_EQ(a.vertices, b.vertices) << round;
     ASSERT_EQ(a.edges, b.edges) << round;

@@ -111,6 +111,7 @@ struct SettledEdge {
   VertexNumber from;
   VertexNumber to;         // from < to
   std::uint32_t polytope;  // the convex primitive, or none
+  bool may_be_touched;
 };
 
 // The only piece in its plane.
@@ -218,7 +219,8 @@ class Merger {
       // The facet on the other side walks it from `to` to `from`.
       if (from > to) continue;
       const auto [first, second] = std::minmax(piece.plane.plane, corners[i].side_plane);
-      settled_edges_.push_back({first, second, from, to, polytope_of(piece)});
+      const bool isolated = settled_.is_isolated(first) || settled_.is_isolated(second);
+      settled_edges_.push_back({first, second, from, to, polytope_of(piece), !isolated});
     }
     if (piece.corner_sense != piece.plane.sense) {
       // Corners and the sides between them, backwards from the same corner.
@@ -460,7 +462,8 @@ class Merger {
     std::uint32_t polytope;  // the convex primitive of one of whose edges it is a part, or none
   };
 
-  // The parts of a line between neighbouring vertices that some segment covers.
+  // The parts of a line between neighbouring vertices that some segment covers, and settled edges;
+  // only what may be touched.
   std::vector<Span> spans() {
     std::vector<Span> result;
     for (LineNumber line = 0; line < content_.size(); ++line) {
@@ -481,6 +484,7 @@ class Merger {
     }
     for (std::size_t i = 0; i < settled_edges_.size(); ++i) {
       const SettledEdge& edge = settled_edges_[i];
+      if (!edge.may_be_touched) continue;
       result.push_back(
           {static_cast<LineNumber>(lines_.size() + i), edge.from, edge.to, edge.polytope});
     }

@@ -12,7 +12,7 @@ using csg::Membership;
 void PieceBuffer::add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
                       std::uint64_t share, std::span<const Corner> polygon) {
   pieces.push_back({outward, corner_sense, static_cast<std::uint32_t>(corners.size()),
-                    static_cast<std::uint32_t>(polygon.size()), facet, share});
+                    static_cast<std::uint32_t>(polygon.size()), facet, share, false});
   corners.insert(corners.end(), polygon.begin(), polygon.end());
 }
 

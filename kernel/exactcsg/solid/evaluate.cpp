@@ -110,7 +110,22 @@ class Evaluation {
       const int sense = inside == Membership::In ? plane.sense : -plane.sense;
       buffer.add({plane.plane, static_cast<signed char>(sense)}, plane.sense, facet.facet,
                  facet.share, decomposition_.corners_of(cell, facet));
+      buffer.pieces.back().isolated = is_isolated(cell, facet);
     }
+  }
+
+  // In a cell of one primitive.
+  bool is_isolated(const CellTask& cell, const ClippedFacet& facet) const {
+    if (facet.clipped || !scene_.primitives[scene_.facets[facet.facet].primitive].convex) {
+      return false;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!(facet.lower[axis] > cell.cell.lower[axis] &&
+            facet.upper[axis] < cell.cell.upper[axis])) {
+        return false;
+      }
+    }
+    return true;
   }
 
   const Scene& scene_;

@@ -27,27 +27,30 @@ bool turns_at_every_corner(const Scene& scene, const SceneFacet& facet) {
 
 }  // namespace
 
-SettledFacets::SettledFacets(const Scene& scene, const std::vector<bool>& whole)
-    : planes_(scene.geometry.plane_count(), false) {
+SettledFacets::SettledFacets(const Scene& scene, const std::vector<Emitted>& emitted)
+    : planes_(scene.geometry.plane_count(), Emitted::NotWhole) {
   std::vector<std::uint32_t> facets_in_plane(planes_.size(), 0);
   for (const SceneFacet& facet : scene.facets) ++facets_in_plane[facet.plane.plane.table_index()];
   for (std::size_t f = 0; f < scene.facets.size(); ++f) {
     const SceneFacet& facet = scene.facets[f];
     const std::uint32_t plane = facet.plane.plane.table_index();
-    if (whole[f] && facets_in_plane[plane] == 1 && turns_at_every_corner(scene, facet)) {
-      planes_[plane] = true;
+    if (emitted[f] != Emitted::NotWhole && facets_in_plane[plane] == 1 &&
+        turns_at_every_corner(scene, facet)) {
+      planes_[plane] = emitted[f];
     }
   }
 }
 
 SettledFacets settled_facets(const Scene& scene, const std::vector<PieceBuffer>& buffers) {
-  std::vector<bool> whole(scene.facets.size(), false);
+  using Emitted = SettledFacets::Emitted;
+  std::vector<Emitted> emitted(scene.facets.size(), Emitted::NotWhole);
   for (const PieceBuffer& buffer : buffers) {
     for (const BoundaryPiece& piece : buffer.pieces) {
-      if (piece.share == facet_share::whole) whole[piece.facet] = true;
+      if (piece.share != facet_share::whole) continue;
+      emitted[piece.facet] = piece.isolated ? Emitted::Isolated : Emitted::Whole;
     }
   }
-  return SettledFacets(scene, whole);
+  return SettledFacets(scene, emitted);
 }
 
 }  // namespace exactcsg

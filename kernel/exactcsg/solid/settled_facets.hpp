@@ -7,7 +7,8 @@
 // A facet is settled if it came out as boundary whole, lies in the plane of no other facet of the
 // scene (in either sense), and surely turns at every corner. No other piece of boundary lies in its
 // plane: its sides bound a face as they are, and between two settled facets a side is an edge, but
-// for vertices of other edges that touch it.
+// for vertices of other edges that touch it. Nothing touches a facet of a convex primitive that
+// lies in an open cell in which no other primitive has boundary: it is isolated.
 
 #include <cstdint>
 #include <vector>
@@ -19,15 +20,23 @@ namespace exactcsg {
 
 class SettledFacets {
  public:
-  // whole: by facet. Only facets of which it says so are settled.
-  SettledFacets(const Scene& scene, const std::vector<bool>& whole);
+  enum class Emitted : unsigned char { NotWhole, Whole, Isolated };
+
+  // emitted: by facet.
+  SettledFacets(const Scene& scene, const std::vector<Emitted>& emitted);
 
   bool is_settled(const BoundaryPiece& piece) const { return is_settled(piece.plane.plane); }
   // Whether the plane is that of a settled facet.
-  bool is_settled(PlaneRef plane) const { return !plane.is_wall() && planes_[plane.table_index()]; }
+  bool is_settled(PlaneRef plane) const {
+    return !plane.is_wall() && planes_[plane.table_index()] != Emitted::NotWhole;
+  }
+  // REQUIRES is_settled(plane)
+  bool is_isolated(PlaneRef plane) const {
+    return planes_[plane.table_index()] == Emitted::Isolated;
+  }
 
  private:
-  std::vector<bool> planes_;  // by table index
+  std::vector<Emitted> planes_;  // by table index; NotWhole: no settled facet's plane
 };
 
 // REQUIRES whole facets were restored: a piece is a whole facet of the scene iff its share says so.

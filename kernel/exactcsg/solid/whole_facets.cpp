@@ -45,6 +45,7 @@ void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers)
         share = facet_share::whole;
       }
       restored.add(piece.plane, piece.corner_sense, piece.facet, share, corners);
+      restored.pieces.back().isolated = piece.isolated;
     }
     buffer = std::move(restored);
   }
