@@ -118,7 +118,6 @@ struct SettledEdge {
 struct SettledFace {
   OrientedPlaneRef plane;
   PieceNumber piece;
-  bool has_settled_sides_only;
   std::vector<VertexNumber> loop;      // the face on the left, seen from outside
   std::vector<bool> has_settled_side;  // from corner i of the loop to the next
 };
@@ -204,12 +203,11 @@ class Merger {
 
   void add_settled_face(const BoundaryPiece& piece, PieceNumber number,
                         std::span<const Corner> corners, std::span<const VertexNumber> numbers) {
-    SettledFace face{piece.plane, number, true, {numbers.begin(), numbers.end()}, {}};
+    SettledFace face{piece.plane, number, {numbers.begin(), numbers.end()}, {}};
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const bool settled = settled_.is_settled(corners[i].side_plane);
       face.has_settled_side.push_back(settled);
       if (!settled) {
-        face.has_settled_sides_only = false;
         add_edge(piece, number, corners, numbers, i);
         continue;
       }
@@ -743,7 +741,8 @@ class Merger {
           for_each_part(face.loop[i], face.loop[i + 1 == face.loop.size() ? 0 : i + 1], visit);
         }
       };
-      if (!face.has_settled_sides_only) {
+      const auto& settled = face.has_settled_side;
+      if (std::find(settled.begin(), settled.end(), false) != settled.end()) {
         for_each_settled_part([&](VertexNumber from, VertexNumber to) {
           edges.push_back({face.plane, face.piece, from, to});
         });

@@ -17,6 +17,7 @@
 #include "exactcsg/io/openscad/shapes.hpp"
 #include "exactcsg/io/planar/projection.hpp"
 #include "exactcsg/solid/evaluate.hpp"
+#include "exactcsg/solid/measures.hpp"
 
 namespace exactcsg::io::openscad {
 
@@ -442,15 +443,10 @@ class GridBuilder {
     if (result.is_empty()) return result;
     if (result.dimension == 3 && result.exact) {
       // The sizes' doubles by the exact extents, and that as a double.
-      std::array<Rational, 3> sizes;
-      const std::vector<Point3> vertices = evaluate(result.solid).vertices;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto [least, largest] = std::minmax_element(
-            vertices.begin(), vertices.end(),
-            [i](const Point3& p, const Point3& q) { return coordinate(p, i) < coordinate(q, i); });
-        if (least == vertices.end()) return result;
-        sizes[i] = coordinate(*largest, i) - coordinate(*least, i);
-      }
+      const auto box = bounding_box(evaluate(result.solid));
+      if (!box) return result;
+      const Vector3 extents = box->upper - box->lower;
+      const std::array<Rational, 3> sizes{extents.x, extents.y, extents.z};
       ResizeShape rounded = shape;
       for (Rational& size : rounded.size) size = rational_of(nearest_double(size));
       const auto factors = resize_factors(rounded, sizes);
