@@ -218,45 +218,6 @@ TEST(OpenscadOffset, IsExactWhereLengthsAreRational) {
   EXPECT_EQ(model.rounding_bound, 0);
 }
 
-struct RefusedNode {
-  const char* text;
-  ErrorId id;
-  std::size_t column;
-};
-class OpenscadRefusedNodes : public testing::TestWithParam<RefusedNode> {};
-TEST_P(OpenscadRefusedNodes, SayWhere) {
-  try {
-    read(GetParam().text);
-    FAIL() << "accepted: " << GetParam().text;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.id(), GetParam().id) << error.what();
-    ASSERT_TRUE(error.details().position) << error.what();
-    EXPECT_EQ(error.details().position->column, GetParam().column) << error.what();
-  }
-}
-
-// Columns counted by hand; a text begins after its quote.
-INSTANTIATE_TEST_SUITE_P(
-    Texts, OpenscadRefusedNodes,
-    testing::Values(
-        RefusedNode{"offset(r = \"a\") { square(1); }", ErrorId::BadArgument, 13},
-        RefusedNode{"offset(delta = [1]) { square(1); }", ErrorId::BadArgument, 16},
-        RefusedNode{"offset(delta = 1, chamfer = 1) { square(1); }", ErrorId::BadArgument, 29},
-        RefusedNode{"offset(r = 1e6, $fn = 1e9) { square(1); }", ErrorId::TooLarge, 1},
-        RefusedNode{"projection(cut = 1) { cube(1); }", ErrorId::BadArgument, 18},
-        RefusedNode{"resize(newsize = 1) { cube(1); }", ErrorId::BadArgument, 18},
-        RefusedNode{"resize(newsize = [1, -1, 0]) { cube(1); }", ErrorId::BadArgument, 22},
-        RefusedNode{"resize(newsize = [1, 1, 1, 1]) { cube(1); }", ErrorId::BadArgument, 18},
-        RefusedNode{"resize([1], auto = \"x\") { cube(1); }", ErrorId::BadArgument, 21},
-        RefusedNode{"import();", ErrorId::BadArgument, 1},
-        RefusedNode{"import(file = 1);", ErrorId::BadArgument, 15},
-        RefusedNode{"import(file = \"a.dxf\");", ErrorId::UnsupportedNode, 16},
-        RefusedNode{"surface(file = \"a.png\");", ErrorId::UnsupportedNode, 17},
-        RefusedNode{"surface(file = \"\");", ErrorId::BadArgument, 17},
-        // A text alone reads no files.
-        RefusedNode{"import(file = \"a.off\");", ErrorId::FileNotReadable, 16},
-        RefusedNode{"surface(file = \"/dev/zero\");", ErrorId::FileNotReadable, 17}));
-
 class OpenscadNamedFiles : public testing::Test {
  protected:
   void SetUp() override {

@@ -207,7 +207,7 @@ TEST_P(OpenscadRefused, HasItsIdAndPosition) {
   }
 }
 
-// Columns counted by hand.
+// Columns counted by hand; a text begins after its quote.
 INSTANTIATE_TEST_SUITE_P(
     Texts, OpenscadRefused,
     testing::Values(
@@ -235,6 +235,23 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"multmatrix([[1, \"a\"]]) { cube(); }", ErrorId::BadArgument, 18},
         Refused{"square(1);", ErrorId::NotThreeDimensional, 1},
         Refused{"group() { circle(1); cube(); }", ErrorId::NotThreeDimensional, 1},
+        Refused{"offset(r = \"a\") { square(1); }", ErrorId::BadArgument, 13},
+        Refused{"offset(delta = [1]) { square(1); }", ErrorId::BadArgument, 16},
+        Refused{"offset(delta = 1, chamfer = 1) { square(1); }", ErrorId::BadArgument, 29},
+        Refused{"offset(r = 1e6, $fn = 1e9) { square(1); }", ErrorId::TooLarge, 1},
+        Refused{"projection(cut = 1) { cube(1); }", ErrorId::BadArgument, 18},
+        Refused{"resize(newsize = 1) { cube(1); }", ErrorId::BadArgument, 18},
+        Refused{"resize(newsize = [1, -1, 0]) { cube(1); }", ErrorId::BadArgument, 22},
+        Refused{"resize(newsize = [1, 1, 1, 1]) { cube(1); }", ErrorId::BadArgument, 18},
+        Refused{"resize([1], auto = \"x\") { cube(1); }", ErrorId::BadArgument, 21},
+        Refused{"import();", ErrorId::BadArgument, 1},
+        Refused{"import(file = 1);", ErrorId::BadArgument, 15},
+        Refused{"import(file = \"a.dxf\");", ErrorId::UnsupportedNode, 16},
+        Refused{"surface(file = \"a.png\");", ErrorId::UnsupportedNode, 17},
+        Refused{"surface(file = \"\");", ErrorId::BadArgument, 17},
+        // A text alone reads no files.
+        Refused{"import(file = \"a.off\");", ErrorId::FileNotReadable, 16},
+        Refused{"surface(file = \"/dev/zero\");", ErrorId::FileNotReadable, 17},
         Refused{"polyhedron();", ErrorId::BadArgument, 1},
         Refused{"polyhedron([[0,0]], []);", ErrorId::BadArgument, 13},
         Refused{"polyhedron([[0,0,0]], [[0,0,1]]);", ErrorId::UnknownVertex, 29},
