@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <numeric>
+#include <random>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -140,6 +142,71 @@ TEST(Gdt, DescendLocates) {
   }
   try {
     descend(tree, [](int) { return 2; });
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.id(), ErrorId::BadArgument);
+  }
+}
+
+// LAW gdt.descend.2, held against the numbers themselves: a terminal holds one number each.
+template <class E>
+void expect_batch_locates(const E& executor) {
+  constexpr int n = 300;
+  const auto tree = search_tree(n, SequentialExecutor{});
+  std::mt19937 random(5);
+  std::vector<int> queries(20'000);
+  std::vector<std::size_t> expected(n, 0);
+  for (int& x : queries) {
+    x = static_cast<int>(random() % n) / 2 * 2;  // nobody goes to the odd ones
+    ++expected[static_cast<std::size_t>(x)];
+  }
+  std::vector<std::size_t> found(n, 0);
+  descend_batch(
+      tree, std::span(queries), [](int cut, int x) { return x < cut ? 0 : 1; },
+      [&](const Interval& interval, std::span<int> here) {
+        std::size_t& count = found[static_cast<std::size_t>(interval.first)];
+        ASSERT_EQ(count, 0U) << "visited twice: " << interval.first;
+        count = here.size();
+        for (const int x : here) ASSERT_EQ(x, interval.first);
+      },
+      executor);
+  EXPECT_EQ(found, expected);
+  EXPECT_TRUE(std::is_sorted(queries.begin(), queries.end()));
+}
+TEST(Gdt, DescendBatchLocates) {
+  expect_batch_locates(SequentialExecutor{});
+  expect_batch_locates(ParallelExecutor<>(2));
+}
+
+// LAW gdt.descend.2: queries that cannot be told apart by where they go keep an order that does not
+// depend on the executor.
+TEST(Gdt, DescendBatchOrdersAlikeOnEveryExecutor) {
+  const auto tree = search_tree(64, SequentialExecutor{});
+  using Query = std::pair<int, int>;
+  std::vector<Query> one;
+  std::mt19937 random(6);
+  for (int i = 0; i < 50'000; ++i) one.emplace_back(static_cast<int>(random() % 64), i);
+  std::vector<Query> two = one;
+  const auto choose = [](int cut, const Query& query) { return query.first < cut ? 0 : 1; };
+  const auto nothing = [](const Interval&, std::span<Query>) {};
+  descend_batch(tree, std::span(one), choose, nothing);
+  descend_batch(tree, std::span(two), choose, nothing, ParallelExecutor<>(2));
+  EXPECT_EQ(one, two);
+}
+
+TEST(Gdt, DescendBatchOfNobodyVisitsNothing) {
+  std::vector<int> queries;
+  descend_batch(
+      search_tree(10, SequentialExecutor{}), std::span(queries), [](int, int) { return 0; },
+      [](const Interval&, std::span<int>) { FAIL(); });
+}
+
+TEST(Gdt, DescendBatchToAChildThatIsNotThere) {
+  std::vector<int> queries{1, 2};
+  try {
+    descend_batch(
+        search_tree(10, SequentialExecutor{}), std::span(queries), [](int, int) { return 2; },
+        [](const Interval&, std::span<int>) {});
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.id(), ErrorId::BadArgument);
