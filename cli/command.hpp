@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "exactcsg/io/model.hpp"
 #include "exactcsg/solid/evaluate.hpp"
+#include "exactcsg/support/error.hpp"
 #include "exactcsg/support/progress.hpp"
 
 namespace exactcsg::cli {
@@ -29,7 +31,7 @@ struct CommonOptions {
 };
 
 // What a command's work is given. The work runs on a thread of its own; warnings may come from it
-// at any time, its output is printed when it has ended without an error.
+// at any time, its output is printed when it has ended without an error, or with refusals only.
 class Context {
  public:
   explicit Context(const CommonOptions& common) : common_(common) {}
@@ -46,12 +48,18 @@ class Context {
   void warn(std::string text);
   std::vector<std::string> take_warnings();
 
+  // One of several models has no answer, the others have: the error's line for stderr, and in the
+  // end the exit code of the first such error.
+  void refuse(const Error& error);
+  const std::optional<ErrorId>& first_refusal() const { return first_refusal_; }
+
  private:
   CommonOptions common_;
   Progress progress_;
   std::string output_;
   std::mutex mutex_;
   std::vector<std::string> warnings_;
+  std::optional<ErrorId> first_refusal_;
 };
 
 struct Command {
@@ -59,6 +67,8 @@ struct Command {
   std::function<Answer(Context&)> work;
   // Verification runs oracles with budgets of their own, so it has no time limit by default.
   double default_time_limit_seconds = 55;
+  // How many models the arguments name, if each has that time.
+  std::function<std::size_t()> models = [] { return std::size_t{1}; };
 };
 
 Command add_verify(CLI::App& app);

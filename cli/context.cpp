@@ -21,6 +21,12 @@ void Context::warn(std::string text) {
   warnings_.push_back(std::move(text));
 }
 
+void Context::refuse(const Error& error) {
+  const std::scoped_lock lock(mutex_);
+  warnings_.emplace_back(error.what());
+  if (!first_refusal_) first_refusal_ = error.id();
+}
+
 std::vector<std::string> Context::take_warnings() {
   const std::scoped_lock lock(mutex_);
   return std::exchange(warnings_, {});

@@ -94,8 +94,8 @@ int run(int argc, char** argv) {
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (!commands[i].arguments->parsed()) continue;
     CommonOptions options = common[i].options;
-    options.time_limit_seconds =
-        common[i].time_limit.value_or(commands[i].default_time_limit_seconds);
+    options.time_limit_seconds = common[i].time_limit.value_or(
+        commands[i].default_time_limit_seconds * static_cast<double>(commands[i].models()));
     limit_memory(options.memory_limit);
     Context context(options);
     return supervise(commands[i], context);

@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Arguments {
-  std::string model;
+  std::vector<std::string> models;
   int digits = 17;
   bool json = false;
 };
@@ -32,6 +32,7 @@ constexpr std::size_t bits_of(std::size_t digits) { return (digits * 3322 + 999)
 using Triple = std::array<std::string, 3>;
 
 struct Measurement {
+  std::string model;
   MeasuredFigures figures;
   std::optional<std::string> exact_volume;
   std::optional<std::array<Triple, 2>> box;
@@ -55,6 +56,7 @@ std::size_t longest_fraction_shown(const Boundary& boundary, bool json) {
 Measurement take(Context& context, const io::Model& model, const Arguments& arguments) {
   const int digits = arguments.digits;
   Measurement result;
+  result.model = model.name;
   const Boundary boundary = evaluate(model.solid, context.evaluate_options());
   context.progress().begin("measure", 0);
   const std::size_t longest_fraction = longest_fraction_shown(boundary, arguments.json);
@@ -88,9 +90,10 @@ Json tiers(const TierStatistics& statistics) {
 }
 
 // schema exactcsg.measure/1: decimals are text, because they may have more digits than a double.
-std::string as_json(const Measurement& m) {
+Json as_json(const Measurement& m) {
   Json document;
   document["schema"] = "exactcsg.measure/1";
+  document["model"] = m.model;
   document["volume"]["decimal"] = m.figures.volume_decimal;
   document["volume"]["exact"] = m.exact_volume ? Json(*m.exact_volume) : Json(nullptr);
   document["area"]["decimal"] = m.figures.area_decimal;
@@ -112,7 +115,7 @@ std::string as_json(const Measurement& m) {
                        {"cells", m.statistics.cells},
                        {"evaluated_cells", m.statistics.evaluated_cells},
                        {"pieces", m.statistics.pieces}};
-  return document.dump(2) + "\n";
+  return document;
 }
 
 std::string as_text(const Measurement& m) {
@@ -142,13 +145,39 @@ std::string as_text(const Measurement& m) {
   return text;
 }
 
-Answer print_measures(Context& context, const Arguments& arguments) {
+Measurement measure_file(Context& context, const std::string& file, const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  const io::Model model = read(context, arguments.model);
-  Measurement measurement = take(context, model, arguments);
+  Measurement measurement = take(context, read(context, file), arguments);
   measurement.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  context.print(arguments.json ? as_json(measurement) : as_text(measurement));
+  return measurement;
+}
+
+Answer print_measures_of_one(Context& context, const Arguments& arguments) {
+  const Measurement measurement = measure_file(context, arguments.models.front(), arguments);
+  context.print(arguments.json ? as_json(measurement).dump(2) + "\n" : as_text(measurement));
+  return Answer::Yes;
+}
+
+// What ends the work on one model, but not on the next.
+bool concerns_one_model(const Error& error) {
+  return error.id() != ErrorId::TimeLimit && error.id() != ErrorId::Cancelled;
+}
+
+// JSON Lines, or texts that each begin with the model's name.
+Answer print_measures(Context& context, const Arguments& arguments) {
+  if (arguments.models.size() == 1) return print_measures_of_one(context, arguments);
+  for (const std::string& file : arguments.models) {
+    try {
+      const Measurement measurement = measure_file(context, file, arguments);
+      context.print(arguments.json ? as_json(measurement).dump() + "\n"
+                                   : fmt::format("{:<16} {}\n{}\n", "model", measurement.model,
+                                                 as_text(measurement)));
+    } catch (const Error& error) {
+      if (!concerns_one_model(error)) throw;
+      context.refuse(error);
+    }
+  }
   return Answer::Yes;
 }
 
@@ -158,15 +187,22 @@ Command add_measure(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "measure", "Volume, area, centre of mass, bounding box, counts, genus and digest.");
-  command->add_option("MODEL", arguments->model, "the model")->required();
+  command
+      ->add_option("MODEL", arguments->models,
+                   "the model; or several, of which one that is refused does not stop the others")
+      ->required();
   command
       ->add_option("--digits", arguments->digits,
                    "significant digits of decimals, correctly rounded")
       ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_flag("--json", arguments->json, "one JSON object, schema exactcsg.measure/1");
-  return {command, [arguments](Context& context) { return print_measures(context, *arguments); }};
+  command->add_flag("--json", arguments->json,
+                    "a JSON object, schema exactcsg.measure/1; of several models one on each line");
+  Command measuring{command,
+                    [arguments](Context& context) { return print_measures(context, *arguments); }};
+  measuring.models = [arguments] { return arguments->models.size(); };
+  return measuring;
 }
 
 }  // namespace exactcsg::cli

@@ -161,6 +161,7 @@ int supervise(const Command& command, Context& context) {
   const Outcome outcome = future.get();
   if (outcome.error || !outcome.internal_error.empty()) return report(outcome);
   print_data(context.output());
+  if (context.first_refusal()) return describe(*context.first_refusal()).exit_code;
   return static_cast<int>(outcome.answer);
 }
 

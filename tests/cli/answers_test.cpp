@@ -8,6 +8,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "cli/run_command.hpp"
 
@@ -117,6 +118,37 @@ TEST(Measure, TextNamesEveryFigure) {
        {"volume           26\n", "area             54\n", "genus            0\n"}) {
     EXPECT_NE(finished.out.find(row), std::string::npos) << finished.out;
   }
+}
+
+// Several models: the answers that each alone has, in the order asked for.
+TEST(Measure, SeveralModels) {
+  const std::vector<std::string> files{model("bracket"), model("menger_1"), model("bracket")};
+  const Finished finished = run_command({"measure", "--json", files[0], files[1], files[2]});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_EQ(finished.err, "");
+  std::istringstream lines(finished.out);
+  for (const std::string& file : files) {
+    std::string line;
+    ASSERT_TRUE(std::getline(lines, line));
+    Json ours = Json::parse(line, nullptr, false);
+    Json alone = measure(file);
+    EXPECT_EQ(ours["model"], file);
+    ours.erase("seconds");
+    alone.erase("seconds");
+    EXPECT_EQ(ours, alone);
+  }
+  EXPECT_EQ(lines.peek(), std::istringstream::traits_type::eof());
+}
+
+TEST(Measure, OneOfSeveralIsRefused) {
+  const Folder folder;
+  const std::string good = folder.write("cube.csg", "cube(size = 2, center = false);\n");
+  const std::string bad = folder.write("bad.csg", "cube(size = 2\n");
+  const Finished finished = run_command({"measure", bad, folder / "none.csg", good});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_NE(finished.err.find("error[E0102]"), std::string::npos) << finished.err;
+  EXPECT_NE(finished.err.find("error[E0002]"), std::string::npos) << finished.err;
+  EXPECT_NE(finished.out.find("volume           8\n"), std::string::npos) << finished.out;
 }
 
 TEST(Classify, FacesEdgesVerticesInsideAndOutside) {
@@ -294,7 +326,7 @@ TEST(Usage, WrongCommandLinesExitWith2) {
       {"measure", file, "--digits", "0"},
       {"measure", file, "--digits", "many"},
       {"measure", file, "--jsn"},
-      {"measure", file, file},
+      {"info", file, file},
       {"measure", file, "--threads", "-1"},
       {"measure", file, "--time-limit", "-1"},
       {"measure", file, "--memory-limit", "much"},

@@ -8,7 +8,9 @@
 //
 // Where the coordinates have a short common denominator, the integer sums of measures.cpp are exact
 // already. Elsewhere terms are added by divide and conquer, depth first: as soon as a partial sum
-// is too long, the work ends, long before the long sums at the top are made.
+// is too long, the work ends, long before the long sums at the top are made; so planes are computed
+// one by one, since those of all faces are more work than all the rest. Faces are taken in the
+// canonical order, in which neighbours are near each other: what they add has common denominators.
 
 #include <algorithm>
 #include <utility>
@@ -90,35 +92,18 @@ Sums<N> projected_sums(const Boundary& boundary, const BoundaryFace& face, std::
   return total;
 }
 
-struct PlanarFace {
-  const BoundaryFace* face;
-  const Plane* plane;
-};
-
-// By the coefficients of their planes: what neighbours add has common denominators, and sums stay
-// short.
-std::vector<PlanarFace> faces_by_plane(const Boundary& boundary, const std::vector<Plane>& planes) {
-  std::vector<PlanarFace> faces;
-  faces.reserve(boundary.faces.size());
-  for (const BoundaryFace& face : boundary.faces) faces.push_back({&face, &planes[face.plane]});
-  std::stable_sort(faces.begin(), faces.end(), [](const PlanarFace& a, const PlanarFace& b) {
-    return compare(*a.plane, *b.plane) < 0;
-  });
-  return faces;
-}
-
-Rational face_volume(const Boundary& boundary, const PlanarFace& planar, std::size_t bit_limit) {
-  const BoundaryFace& face = *planar.face;
-  const LocalPlane plane = local_plane(*planar.plane, boundary.vertices.front());
+Rational face_volume(const Boundary& boundary, const BoundaryFace& face, std::size_t bit_limit) {
+  const Plane exact = exact_plane(boundary, face);
+  const LocalPlane plane = local_plane(exact, boundary.vertices.front());
   if (plane.offset == 0) return 0;
   const Sums<1> sums = projected_sums<1>(boundary, face, plane.k, bit_limit);
   return -plane.offset * sums[0] / (6 * *plane.normal[plane.k]);
 }
 
 // Volume and first moments of the cone from the reference.
-Sums<4> face_moments(const Boundary& boundary, const PlanarFace& planar, std::size_t bit_limit) {
-  const BoundaryFace& face = *planar.face;
-  const LocalPlane plane = local_plane(*planar.plane, boundary.vertices.front());
+Sums<4> face_moments(const Boundary& boundary, const BoundaryFace& face, std::size_t bit_limit) {
+  const Plane exact = exact_plane(boundary, face);
+  const LocalPlane plane = local_plane(exact, boundary.vertices.front());
   if (plane.offset == 0) return {};
   const std::size_t k = plane.k;
   const std::size_t u = (k + 1) % 3;
@@ -150,10 +135,8 @@ std::optional<Rational> exact_volume(const Boundary& boundary, std::size_t bit_l
     return within(enclose_volume(boundary, any_bits).lower, bit_limit);
   }
   try {
-    const std::vector<Plane> planes = exact_planes(boundary);
-    const std::vector<PlanarFace> faces = faces_by_plane(boundary, planes);
-    return add_up<1>(0, faces.size(), bit_limit, [&](std::size_t f) {
-      return Sums<1>{face_volume(boundary, faces[f], bit_limit)};
+    return add_up<1>(0, boundary.faces.size(), bit_limit, [&](std::size_t f) {
+      return Sums<1>{face_volume(boundary, boundary.faces[f], bit_limit)};
     })[0];
   } catch (const TooLong&) {
     return std::nullopt;
@@ -180,10 +163,9 @@ std::optional<Rational> exact_area(const Boundary& boundary, std::size_t bit_lim
     if (area.lower == area.upper) return within(area.lower, bit_limit);
   }
   try {
-    const std::vector<PlanarFace> faces = faces_by_plane(boundary, planes);
-    return add_up<1>(0, faces.size(), bit_limit, [&](std::size_t f) {
-      const BoundaryFace& face = *faces[f].face;
-      const std::size_t k = local_plane(*faces[f].plane, boundary.vertices.front()).k;
+    return add_up<1>(0, boundary.faces.size(), bit_limit, [&](std::size_t f) {
+      const BoundaryFace& face = boundary.faces[f];
+      const std::size_t k = local_plane(planes[face.plane], boundary.vertices.front()).k;
       const Sums<1> sums = projected_sums<1>(boundary, face, k, bit_limit);
       return Sums<1>{Rational(sums[0] * stretch[face.plane] / 2)};
     })[0];
@@ -202,10 +184,8 @@ std::optional<Point3> exact_centroid(const Boundary& boundary, std::size_t bit_l
     return Point3{centroid[0].lower, centroid[1].lower, centroid[2].lower};
   }
   try {
-    const std::vector<Plane> planes = exact_planes(boundary);
-    const std::vector<PlanarFace> faces = faces_by_plane(boundary, planes);
-    const Sums<4> sums = add_up<4>(0, faces.size(), bit_limit, [&](std::size_t f) {
-      return face_moments(boundary, faces[f], bit_limit);
+    const Sums<4> sums = add_up<4>(0, boundary.faces.size(), bit_limit, [&](std::size_t f) {
+      return face_moments(boundary, boundary.faces[f], bit_limit);
     });
     const Point3& o = boundary.vertices.front();
     return Point3{o.x + sums[1] / sums[0], o.y + sums[2] / sums[0], o.z + sums[3] / sums[0]};
