@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// The volume of a set inside a box, between two bounds that are proved. [Certified]
+//
+//   volume(tree, box, limits) -> CertifiedMeasure
+//
+// LAW certified_measure.1  the volume of the tree's set inside the box lies in value.
+// LAW certified_measure.2  stop says why the work ended; at Width, upper - lower is at most the
+//                          absolute width asked for, or the relative one times lower.
+// LAW certified_measure.3  without a deadline and a cancellation, the result depends on the
+//                          arguments alone. Sets bounded by planes across the axes alone have
+//                          lower == upper.
+// REQUIRES the primitives model domain::Domain in space. Any are measured; those whose polynomial
+// is known (domain::HalfSpace<3>) are measured well:
+// COST: the box is divided into cells, those first whose bounds are furthest apart; in each the
+// tree is pruned. A cell in which every surface left is a graph over the same face becomes a
+// column (column.hpp): only the face is divided further. There the width falls, in the number n of
+// cells, as n^-3 where one surface is left or two cross, as n^-2 at worst. Other primitives:
+// n^-1/2.
+//
+// Source: Davy and Dew, section 3.4 and 5.3 (the area of a set by division and pruning); bounds,
+// columns and best-first order are ours.
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "exactcsg/measure/local_region.hpp"
+#include "exactcsg/number/enclosure.hpp"
+#include "exactcsg/support/progress.hpp"
+
+namespace exactcsg::measure {
+
+enum class StopReason : unsigned char { Width, Cells, Deadline, Cancelled, Precision };
+
+struct MeasureLimits {
+  // Either is enough; 0 is reached only where the result is exact.
+  double absolute_width = 0;
+  double relative_width = 1e-6;
+  std::uint64_t cells = 20'000'000;
+  std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
+  // Cells are counted there, and a cancellation ends the work with the bounds reached.
+  Progress* progress = nullptr;
+};
+
+struct CertifiedMeasure {
+  Enclosure value;
+  StopReason stop = StopReason::Width;
+  std::uint64_t cells = 0;
+};
+
+namespace detail {
+
+// Sums of equal numbers of terms are added first: errors grow with the logarithm of the count.
+class PairwiseSum {
+ public:
+  void add(CertifiedDouble term) {
+    ++count_;
+    for (std::uint64_t bits = count_; bits % 2 == 0; bits /= 2) {
+      term = partial_.back() + term;
+      partial_.pop_back();
+    }
+    partial_.push_back(term);
+  }
+  CertifiedDouble total() const {
+    CertifiedDouble sum;
+    for (auto term = partial_.rbegin(); term != partial_.rend(); ++term) sum = sum + *term;
+    return sum;
+  }
+
+ private:
+  std::vector<CertifiedDouble> partial_;
+  std::uint64_t count_ = 0;
+};
+
+// The clock is asked once for so many cells.
+constexpr std::uint64_t cells_per_look_at_clock = 64;
+
+template <SpatialDomain P>
+class VolumeMeter {
+ public:
+  VolumeMeter(const csg::BooleanTree<P>& tree, const Box3& box, const MeasureLimits& limits)
+      : limits_(limits), tree_(table_.add(tree)), memberships_(table_) {
+    if (limits_.progress != nullptr) limits_.progress->begin("measure", limits_.cells);
+    add_cell(box, tree_);
+  }
+
+  CertifiedMeasure run() {
+    for (;;) {
+      if (width_ <= allowed_width() * (1 + 0x1p-30)) {
+        CertifiedMeasure result = bounds(StopReason::Width);
+        const Rational width = result.value.upper - result.value.lower;
+        if (width <= rational_of(limits_.absolute_width) ||
+            width <= rational_of(limits_.relative_width) * result.value.lower) {
+          return result;
+        }
+        settle_sums();
+        if (leaves_.empty()) return bounds(StopReason::Precision);
+      }
+      if (leaves_.empty()) return bounds(StopReason::Precision);
+      if (cells_ >= limits_.cells) return bounds(StopReason::Cells);
+      if (limits_.progress != nullptr && limits_.progress->cancelled()) {
+        return bounds(StopReason::Cancelled);
+      }
+      if (limits_.deadline && cells_ / cells_per_look_at_clock != looked_at_clock_) {
+        looked_at_clock_ = cells_ / cells_per_look_at_clock;
+        if (std::chrono::steady_clock::now() >= *limits_.deadline) {
+          return bounds(StopReason::Deadline);
+        }
+      }
+      refine();
+    }
+  }
+
+ private:
+  struct LocalColumn {
+    Column column;
+    CertifiedDouble scale;  // the volume of the cell over that of its own coordinates
+  };
+  struct LocalCell {
+    Box3 box;
+    LiteralTree tree;
+    AxisPlane cut;
+  };
+  struct Leaf {
+    CertifiedDouble volume;
+    std::shared_ptr<const LocalColumn> column;
+    std::shared_ptr<const LocalCell> cell;  // if there is no column
+    Rectangle rectangle;
+    friend bool operator<(const Leaf& a, const Leaf& b) { return a.volume.error < b.volume.error; }
+  };
+
+  double allowed_width() const {
+    return std::max(limits_.absolute_width,
+                    limits_.relative_width * (approximate_full_ + middle_ - width_ / 2));
+  }
+
+  void add_cell(const Box3& box, const LiteralTree& above) {
+    count();
+    memberships_.enter(box);
+    LiteralTree tree = csg::prune(above, memberships_);
+    if (tree.is_empty()) return;
+    const Rational volume = volume_of(box);
+    if (tree.is_full()) {
+      full_ += volume;
+      approximate_full_ += nearest_double(volume);
+      return;
+    }
+    const std::optional<AxisPlane> cut = axis_cut(table_, tree, box);
+    if (std::optional<Column> column = cut ? std::nullopt : column_of(table_, tree, box)) {
+      const auto local = std::make_shared<const LocalColumn>(
+          LocalColumn{std::move(*column), certified_double_of(Rational(volume / 8))});
+      return add_rectangle(local, Rectangle());
+    }
+    const CertifiedDouble half = certified_double_of(Rational(volume / 2));
+    push({widened(half, magnitude(half)), nullptr,
+          std::make_shared<const LocalCell>(
+              LocalCell{box, std::move(tree), cut ? *cut : bisector(box)}),
+          Rectangle()});
+  }
+
+  void add_rectangle(const std::shared_ptr<const LocalColumn>& local, const Rectangle& r) {
+    count();
+    const CertifiedDouble whole = exactly(2 * r.area()) * local->scale;
+    CertifiedDouble volume = local->column.volume(r) * local->scale;
+    if (!(volume.error < whole.value / 2)) {  // says nothing; or has overflown
+      const CertifiedDouble half = exactly(0.5) * whole;
+      volume = widened(half, magnitude(half));
+    }
+    // Rounding is all that is left, or soon would be.
+    constexpr double negligible = 0x1p-42;
+    if (volume.error <= negligible * whole.value || r.a < 0x1p-40) {
+      settled_.add(volume);
+      width_ += 2 * volume.error;
+      middle_ += volume.value;
+    } else {
+      push({volume, local, nullptr, r});
+    }
+  }
+
+  void push(Leaf leaf) {
+    width_ += 2 * leaf.volume.error;
+    middle_ += leaf.volume.value;
+    leaves_.push(std::move(leaf));
+  }
+
+  void refine() {
+    const Leaf leaf = leaves_.top();
+    leaves_.pop();
+    width_ -= 2 * leaf.volume.error;
+    middle_ -= leaf.volume.value;
+    if (leaf.column == nullptr) {
+      const auto parts = divided(leaf.cell->box, leaf.cell->cut);
+      add_cell(parts.first, leaf.cell->tree);
+      add_cell(parts.second, leaf.cell->tree);
+      return;
+    }
+    const double a = leaf.rectangle.a / 2;
+    const double b = leaf.rectangle.b / 2;
+    for (const double s : {leaf.rectangle.s - a, leaf.rectangle.s + a}) {
+      for (const double t : {leaf.rectangle.t - b, leaf.rectangle.t + b}) {
+        add_rectangle(leaf.column, {s, t, a, b});
+      }
+    }
+  }
+
+  CertifiedDouble sum_of_leaves() const {
+    PairwiseSum sum = settled_;
+    for (const Leaf& leaf : leaves_.items()) sum.add(leaf.volume);
+    return sum.total();
+  }
+  // The running sums have drifted.
+  void settle_sums() {
+    const CertifiedDouble sum = sum_of_leaves();
+    width_ = 2 * sum.error;
+    middle_ = sum.value;
+  }
+  CertifiedMeasure bounds(StopReason reason) const {
+    const CertifiedDouble sum = sum_of_leaves();
+    const Rational middle = full_ + rational_of(sum.value);
+    const Rational error = rational_of(sum.error);
+    const Rational lower = middle - error;
+    return {{std::max(lower, full_), Rational(middle + error)}, reason, cells_};
+  }
+
+  void count() {
+    ++cells_;
+    if (limits_.progress != nullptr) limits_.progress->advance();
+  }
+
+  struct Leaves : std::priority_queue<Leaf> {
+    const std::vector<Leaf>& items() const { return this->c; }
+  };
+
+  const MeasureLimits& limits_;
+  SurfaceTable<P> table_;
+  LiteralTree tree_;
+  LocalMemberships<P> memberships_;
+  Leaves leaves_;
+  PairwiseSum settled_;  // the leaves that are not refined any more
+  Rational full_;
+  double approximate_full_ = 0;
+  double width_ = 0;   // of all leaves, nearly
+  double middle_ = 0;  // the sum of their middles, nearly
+  std::uint64_t cells_ = 0;
+  std::uint64_t looked_at_clock_ = 0;
+};
+
+}  // namespace detail
+
+template <SpatialDomain P>
+CertifiedMeasure volume(const csg::BooleanTree<P>& tree, const domain::Box<3>& box,
+                        const MeasureLimits& limits = {}) {
+  return detail::VolumeMeter<P>(tree, box, limits).run();
+}
+
+}  // namespace exactcsg::measure

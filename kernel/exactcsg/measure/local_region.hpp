@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What is left of a tree in a box, how such a cell is divided, and the column it is if it is one.
+// [Exact], columns [Certified]
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "exactcsg/csg/prune.hpp"
+#include "exactcsg/csg/walk.hpp"
+#include "exactcsg/measure/column.hpp"
+#include "exactcsg/measure/surface_table.hpp"
+
+namespace exactcsg::measure::detail {
+
+using Box3 = domain::Box<3>;
+
+inline Rational volume_of(const Box3& box) {
+  Rational volume = 1;
+  for (std::size_t i = 0; i < 3; ++i) volume *= box.upper()[i] - box.lower()[i];
+  return volume;
+}
+
+// The surfaces that occur in the tree, each once; nullopt if they are more than `limit`.
+inline std::optional<std::vector<std::uint32_t>> surfaces_of(const LiteralTree& tree,
+                                                             std::size_t limit) {
+  // Occurrences may be many where surfaces are few.
+  constexpr std::uint64_t occurrences_limit = 256;
+  if (tree.primitive_count() > occurrences_limit) return std::nullopt;
+  std::vector<std::uint32_t> surfaces;
+  csg::for_each_primitive(tree,
+                          [&](const Literal& literal) { surfaces.push_back(literal.surface); });
+  std::sort(surfaces.begin(), surfaces.end());
+  surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
+  if (surfaces.size() > limit) return std::nullopt;
+  return surfaces;
+}
+
+// A plane x_axis = coordinate.
+struct AxisPlane {
+  std::size_t axis = 0;
+  Rational coordinate;
+};
+
+inline std::optional<AxisPlane> axis_plane(const domain::HalfSpace<3>& half_space) {
+  const domain::Quadric<3>& f = half_space.polynomial();
+  if (!f.is_linear() || half_space.nappe()) return std::nullopt;
+  std::optional<AxisPlane> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (f.linear().normal[i] == 0) continue;
+    if (result) return std::nullopt;
+    result = AxisPlane{i, Rational(-f.linear().constant / f.linear().normal[i])};
+  }
+  return result;
+}
+
+// A polynomial in the box's own coordinates that is negative inside the half-space, positive
+// outside.
+inline std::optional<UnitQuadric> local_polynomial(const domain::HalfSpace<3>& half_space,
+                                                   const Box3& box) {
+  if (half_space.nappe() && domain::range(*half_space.nappe(), box).maximum > 0) {
+    return std::nullopt;
+  }
+  const UnitQuadric f = unit_quadric(half_space.polynomial(), box);
+  return half_space.is_complement() ? -f : f;
+}
+
+inline std::pair<Box3, Box3> divided(const Box3& box, const AxisPlane& cut) {
+  domain::Coordinates<3> upper_of_first = box.upper().coordinates();
+  domain::Coordinates<3> lower_of_second = box.lower().coordinates();
+  upper_of_first[cut.axis] = cut.coordinate;
+  lower_of_second[cut.axis] = cut.coordinate;
+  return {Box3(box.lower(), upper_of_first), Box3(lower_of_second, box.upper())};
+}
+
+inline AxisPlane bisector(const Box3& box) {
+  AxisPlane result;
+  double longest = -1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double length = box.upper().approximate()[i].value - box.lower().approximate()[i].value;
+    if (length > longest * (1 + 0x1p-20)) {
+      longest = length;
+      result.axis = i;
+    }
+  }
+  result.coordinate = (box.lower()[result.axis] + box.upper()[result.axis]) / 2;
+  return result;
+}
+
+// Of the surfaces that are planes across an axis and cross the box, the nearest to its middle.
+template <SpatialDomain P>
+std::optional<AxisPlane> axis_cut(const SurfaceTable<P>& table, const LiteralTree& tree,
+                                  const Box3& box) {
+  std::optional<AxisPlane> best;
+  double least = 2;
+  if constexpr (requires(const P& p) { axis_plane(p); }) {
+    csg::for_each_primitive(tree, [&](const Literal& literal) {
+      const std::optional<AxisPlane> plane = axis_plane(table[literal.surface]);
+      if (!plane) return;
+      const Rational& low = box.lower()[plane->axis];
+      const Rational& high = box.upper()[plane->axis];
+      if (plane->coordinate <= low || plane->coordinate >= high) return;
+      const double share = nearest_double(Rational((plane->coordinate - low) / (high - low)));
+      if (std::abs(share - 0.5) < least) {
+        least = std::abs(share - 0.5);
+        best = plane;
+      }
+    });
+  }
+  return best;
+}
+
+// How well the surfaces are graphs over the face across an axis: the least ratio of the derivative
+// along the axis to those across it; 0 if it may vanish in the cell.
+inline double graph_quality(const std::vector<UnitQuadric>& surfaces, std::size_t axis) {
+  double quality = HUGE_VAL;
+  for (const UnitQuadric& f : surfaces) {
+    std::array<double, 3> reach{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) reach[i] += 2 * magnitude(f.square[i][j]);
+    }
+    const CertifiedDouble along = widened(f.linear[axis], reach[axis]);
+    const double least = std::abs(along.value) * (1 - 0x1p-40) - along.error;
+    if (!(least > 0)) return 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (i != axis) quality = std::min(quality, least / (magnitude(f.linear[i]) + reach[i]));
+    }
+  }
+  return quality;
+}
+
+// REQUIRES a tree of few nodes, that is neither Empty nor Full.
+template <SpatialDomain P>
+std::optional<Column> column_of(const SurfaceTable<P>& table, const LiteralTree& tree,
+                                const Box3& box) {
+  constexpr std::size_t most_surfaces = 12;
+  constexpr double least_quality = 0.25;
+  if constexpr (requires(const P& p) { local_polynomial(p, box); }) {
+    const auto numbers = surfaces_of(tree, most_surfaces);
+    if (!numbers) return std::nullopt;
+    std::vector<UnitQuadric> surfaces;
+    for (const std::uint32_t number : *numbers) {
+      const auto f = local_polynomial(table[number], box);
+      if (!f) return std::nullopt;
+      surfaces.push_back(*f);
+    }
+    std::size_t axis = 0;
+    double best = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double quality = graph_quality(surfaces, i);
+      if (quality > best) {
+        best = quality;
+        axis = i;
+      }
+    }
+    if (best < least_quality) return std::nullopt;
+    std::vector<bool> is_falling;
+    for (UnitQuadric& f : surfaces) {
+      is_falling.push_back(f.linear[axis].value < 0);
+      f = (is_falling.back() ? -f : f).with_height(axis);
+    }
+    PassedTree passed = csg::flatten(tree, [&](const Literal& literal) {
+      const auto index = static_cast<std::size_t>(
+          std::lower_bound(numbers->begin(), numbers->end(), literal.surface) - numbers->begin());
+      return PassedLiteral{static_cast<std::uint32_t>(index),
+                           is_falling[index] != literal.is_complemented};
+    });
+    return Column(std::move(surfaces), std::move(passed));
+  } else {
+    return std::nullopt;
+  }
+}
+
+}  // namespace exactcsg::measure::detail
