@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Volume, area and centre of mass as rationals.
 //
-// A face in n . q + d = 0 (q from a vertex o of the solid) projected along a coordinate k with
-// n_k != 0 has the signed area A_k; its cone from o has the volume -d / (3 n_k) A_k, its area is
-// A_k |n| / n_k, and the first moments of its cone are -d / (4 n_k) times those of the projection.
-// So all sums are sums of products of two or three coordinates.
+// The cone from the origin over the triangle p, q, r has the volume det(p, q, r) / 6 and the first
+// moments det(p, q, r) (p + q + r) / 24; a loop is a fan of triangles, in which parts outside the
+// face cancel. Corners are integers over one common denominator each, so that a triangle costs
+// integer products and one reduced fraction. The area of a face in n . x + d = 0 is that of its
+// projection along a coordinate k with n_k != 0, times |n| / n_k.
 //
 // Where the coordinates have a short common denominator, the integer sums of measures.cpp are exact
 // already. Elsewhere terms are added by divide and conquer, depth first: as soon as a partial sum
@@ -13,6 +14,7 @@
 // canonical order, in which neighbours are near each other: what they add has common denominators.
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "exactcsg/solid/face_planes.hpp"
@@ -47,76 +49,136 @@ Sums<N> add_up(std::size_t begin, std::size_t end, std::size_t bit_limit, const 
   return sum;
 }
 
-// A plane with its coefficients by coordinate and the constant with respect to the reference.
-struct LocalPlane {
-  std::array<const Integer*, 3> normal;
-  Rational offset;
-  std::size_t k = 0;
-};
-
-LocalPlane local_plane(const Plane& plane, const Point3& reference) {
-  LocalPlane local{{&plane.a, &plane.b, &plane.c},
-                   plane.a * reference.x + plane.b * reference.y + plane.c * reference.z + plane.d,
-                   0};
-  for (std::size_t i = 1; i < 3; ++i) {
-    if (mpz_cmpabs(local.normal[i]->get_mpz_t(), local.normal[local.k]->get_mpz_t()) > 0) {
-      local.k = i;
-    }
-  }
-  return local;
+const Integer& normal(const Plane& plane, std::size_t axis) {
+  return axis == 0 ? plane.a : axis == 1 ? plane.b : plane.c;
 }
 
-// Twice the projected area and six times the first moments of the projection, in coordinates
-// k + 1 and k + 2, from the reference.
-template <std::size_t N>
-Sums<N> projected_sums(const Boundary& boundary, const BoundaryFace& face, std::size_t k,
-                       std::size_t bit_limit) {
-  const Point3& o = boundary.vertices.front();
-  const std::size_t u = (k + 1) % 3;
-  const std::size_t v = (k + 2) % 3;
-  Sums<N> total;
+// The coordinate that the normal leans to most.
+std::size_t steepest_axis(const Plane& plane) {
+  std::size_t k = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (mpz_cmpabs(normal(plane, i).get_mpz_t(), normal(plane, k).get_mpz_t()) > 0) k = i;
+  }
+  return k;
+}
+
+// Twice the area of the projection along a coordinate.
+Rational projected_area(const Boundary& boundary, const BoundaryFace& face, std::size_t along,
+                        std::size_t bit_limit) {
+  const std::size_t u = (along + 1) % 3;
+  const std::size_t v = (along + 2) % 3;
+  Rational total;
   for (const auto& loop : face.loops) {
-    const Sums<N> sums = add_up<N>(0, loop.size(), bit_limit, [&](std::size_t i) {
+    const Point3& o = boundary.vertices[loop.front()];
+    total += add_up<1>(0, loop.size(), bit_limit, [&](std::size_t i) {
       const Vector3 p = boundary.vertices[loop[i]] - o;
       const Vector3 q = boundary.vertices[loop[(i + 1) % loop.size()]] - o;
-      Sums<N> term;
-      term[0] = coordinate(p, u) * coordinate(q, v) - coordinate(p, v) * coordinate(q, u);
-      if constexpr (N == 3) {
-        term[1] = term[0] * (coordinate(p, u) + coordinate(q, u));
-        term[2] = term[0] * (coordinate(p, v) + coordinate(q, v));
-      }
-      return term;
+      return Sums<1>{
+          Rational(coordinate(p, u) * coordinate(q, v) - coordinate(p, v) * coordinate(q, u))};
+    })[0];
+  }
+  return total;
+}
+
+// (x, y, z) / scale.
+struct Homogeneous {
+  std::array<Integer, 3> coordinates;
+  Integer scale;
+};
+
+// The vertices, each brought to a common denominator when it is first asked for.
+class HomogeneousVertices {
+ public:
+  explicit HomogeneousVertices(const Boundary& boundary)
+      : boundary_(boundary), known_(boundary.vertices.size()) {}
+  const Boundary& boundary() const { return boundary_; }
+
+  const Homogeneous& of(std::uint32_t vertex) {
+    Homogeneous& found = known_[vertex];
+    if (found.scale != 0) return found;
+    const Point3& p = boundary_.vertices[vertex];
+    found.scale = lcm(lcm(p.x.get_den(), p.y.get_den()), p.z.get_den());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Rational& value = coordinate(p, i);
+      mpz_divexact(found.coordinates[i].get_mpz_t(), found.scale.get_mpz_t(),
+                   value.get_den_mpz_t());
+      found.coordinates[i] *= value.get_num();
+    }
+    return found;
+  }
+
+ private:
+  const Boundary& boundary_;
+  std::vector<Homogeneous> known_;
+};
+
+Integer determinant(const Homogeneous& p, const Homogeneous& q, const Homogeneous& r) {
+  const auto& [a, b, c] = p.coordinates;
+  const auto& [d, e, f] = q.coordinates;
+  const auto& [g, h, i] = r.coordinates;
+  return a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g);
+}
+
+Rational quotient(Integer numerator, Integer denominator) {
+  Rational result;
+  result.get_num() = std::move(numerator);
+  result.get_den() = std::move(denominator);
+  result.canonicalize();
+  return result;
+}
+
+// Six volumes, and for N == 4 also 24 first moments, of the cone from the origin.
+template <std::size_t N>
+Sums<N> cone_over(const Homogeneous& p, const Homogeneous& q, const Homogeneous& r) {
+  Sums<N> sums;
+  const Integer six_volumes = determinant(p, q, r);
+  if (six_volumes == 0) return sums;
+  const Integer scale = p.scale * q.scale * r.scale;
+  sums[0] = quotient(six_volumes, scale);
+  for (std::size_t i = 1; i < N; ++i) {
+    const Integer sum = p.coordinates[i - 1] * q.scale * r.scale +
+                        q.coordinates[i - 1] * r.scale * p.scale +
+                        r.coordinates[i - 1] * p.scale * q.scale;
+    sums[i] = quotient(six_volumes * sum, scale * scale);
+  }
+  return sums;
+}
+
+template <std::size_t N>
+Sums<N> cone_over(HomogeneousVertices& vertices, const BoundaryFace& face, std::size_t bit_limit) {
+  Sums<N> total;
+  for (const auto& loop : face.loops) {
+    const Sums<N> sums = add_up<N>(2, loop.size(), bit_limit, [&](std::size_t i) {
+      return cone_over<N>(vertices.of(loop[0]), vertices.of(loop[i - 1]), vertices.of(loop[i]));
     });
     for (std::size_t i = 0; i < N; ++i) total[i] += sums[i];
   }
   return total;
 }
 
-Rational face_volume(const Boundary& boundary, const BoundaryFace& face, std::size_t bit_limit) {
-  const Plane exact = exact_plane(boundary, face);
-  const LocalPlane plane = local_plane(exact, boundary.vertices.front());
-  if (plane.offset == 0) return 0;
-  const Sums<1> sums = projected_sums<1>(boundary, face, plane.k, bit_limit);
-  return -plane.offset * sums[0] / (6 * *plane.normal[plane.k]);
+std::size_t longest_denominator(const Boundary& boundary, const BoundaryFace& face) {
+  std::size_t longest = 0;
+  for (const std::uint32_t v : face.loops.front()) {
+    longest = std::max(longest, mpz_sizeinbase(boundary.vertices[v].x.get_den_mpz_t(), 2));
+  }
+  return longest;
 }
 
-// Volume and first moments of the cone from the reference.
-Sums<4> face_moments(const Boundary& boundary, const BoundaryFace& face, std::size_t bit_limit) {
-  const Plane exact = exact_plane(boundary, face);
-  const LocalPlane plane = local_plane(exact, boundary.vertices.front());
-  if (plane.offset == 0) return {};
-  const std::size_t k = plane.k;
-  const std::size_t u = (k + 1) % 3;
-  const std::size_t v = (k + 2) % 3;
-  const Sums<3> sums = projected_sums<3>(boundary, face, k, bit_limit);
-  const Rational area = sums[0] / 2;
-  std::array<Rational, 3> first;
-  first[u] = sums[1] / 6;
-  first[v] = sums[2] / 6;
-  first[k] = -(*plane.normal[u] * first[u] + *plane.normal[v] * first[v] + plane.offset * area) /
-             *plane.normal[k];
-  const Rational height = -plane.offset / *plane.normal[k];
-  return {height * area / 3, height * first[0] / 4, height * first[1] / 4, height * first[2] / 4};
+// Faces of short vertices keep partial sums short for a long time, so the others come first: where
+// the volume is hopelessly long, these few nearly always say so.
+void try_longest_faces(HomogeneousVertices& vertices, std::size_t bit_limit) {
+  const Boundary& boundary = vertices.boundary();
+  constexpr std::size_t some = 512;
+  if (boundary.faces.size() <= some) return;
+  std::vector<std::pair<std::size_t, std::size_t>> longest;
+  longest.reserve(boundary.faces.size());
+  for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
+    longest.emplace_back(longest_denominator(boundary, boundary.faces[f]), f);
+  }
+  std::partial_sort(longest.begin(), longest.begin() + some, longest.end(), std::greater<>());
+  add_up<1>(0, some, bit_limit, [&](std::size_t i) {
+    return cone_over<1>(vertices, boundary.faces[longest[i].second], bit_limit);
+  });
 }
 
 std::optional<Rational> within(Rational value, std::size_t bit_limit) {
@@ -135,9 +197,12 @@ std::optional<Rational> exact_volume(const Boundary& boundary, std::size_t bit_l
     return within(enclose_volume(boundary, any_bits).lower, bit_limit);
   }
   try {
-    return add_up<1>(0, boundary.faces.size(), bit_limit, [&](std::size_t f) {
-      return Sums<1>{face_volume(boundary, boundary.faces[f], bit_limit)};
-    })[0];
+    HomogeneousVertices vertices(boundary);
+    try_longest_faces(vertices, bit_limit);
+    const Sums<1> sums = add_up<1>(0, boundary.faces.size(), bit_limit, [&](std::size_t f) {
+      return cone_over<1>(vertices, boundary.faces[f], bit_limit);
+    });
+    return sums[0] / 6;
   } catch (const TooLong&) {
     return std::nullopt;
   }
@@ -153,8 +218,7 @@ std::optional<Rational> exact_area(const Boundary& boundary, std::size_t bit_lim
     plane = exact_plane(boundary, face);
     const Integer square = plane.a * plane.a + plane.b * plane.b + plane.c * plane.c;
     if (mpz_perfect_square_p(square.get_mpz_t()) == 0) return std::nullopt;
-    const LocalPlane local = local_plane(plane, boundary.vertices.front());
-    stretch[face.plane] = Rational(Integer(sqrt(square)), *local.normal[local.k]);
+    stretch[face.plane] = Rational(Integer(sqrt(square)), normal(plane, steepest_axis(plane)));
     stretch[face.plane].canonicalize();
   }
   if (boundary.empty()) return Rational(0);
@@ -165,9 +229,9 @@ std::optional<Rational> exact_area(const Boundary& boundary, std::size_t bit_lim
   try {
     return add_up<1>(0, boundary.faces.size(), bit_limit, [&](std::size_t f) {
       const BoundaryFace& face = boundary.faces[f];
-      const std::size_t k = local_plane(planes[face.plane], boundary.vertices.front()).k;
-      const Sums<1> sums = projected_sums<1>(boundary, face, k, bit_limit);
-      return Sums<1>{Rational(sums[0] * stretch[face.plane] / 2)};
+      const std::size_t k = steepest_axis(planes[face.plane]);
+      const Rational twice = projected_area(boundary, face, k, bit_limit);
+      return Sums<1>{Rational(twice * stretch[face.plane] / 2)};
     })[0];
   } catch (const TooLong&) {
     return std::nullopt;
@@ -184,11 +248,12 @@ std::optional<Point3> exact_centroid(const Boundary& boundary, std::size_t bit_l
     return Point3{centroid[0].lower, centroid[1].lower, centroid[2].lower};
   }
   try {
+    HomogeneousVertices vertices(boundary);
     const Sums<4> sums = add_up<4>(0, boundary.faces.size(), bit_limit, [&](std::size_t f) {
-      return face_moments(boundary, boundary.faces[f], bit_limit);
+      return cone_over<4>(vertices, boundary.faces[f], bit_limit);
     });
-    const Point3& o = boundary.vertices.front();
-    return Point3{o.x + sums[1] / sums[0], o.y + sums[2] / sums[0], o.z + sums[3] / sums[0]};
+    const Rational four_times = 4 * sums[0];
+    return Point3{sums[1] / four_times, sums[2] / four_times, sums[3] / four_times};
   } catch (const TooLong&) {
     return std::nullopt;
   }
