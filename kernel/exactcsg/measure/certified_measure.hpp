@@ -157,9 +157,11 @@ class VolumeMeter {
       return add_rectangle(local, Rectangle());
     }
     const CertifiedDouble half = certified_double_of(Rational(volume / 2));
+    DividingAxis axis(box);
+    axis.add(table_, tree, box);
     push({widened(half, magnitude(half)), nullptr,
           std::make_shared<const LocalCell>(
-              LocalCell{box, std::move(tree), cut ? *cut : bisector(box)}),
+              LocalCell{box, std::move(tree), cut ? *cut : axis.bisector(box)}),
           Rectangle()});
   }
 

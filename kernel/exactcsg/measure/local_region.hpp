@@ -5,6 +5,8 @@
 // [Exact], columns [Certified]
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -79,19 +81,57 @@ inline std::pair<Box3, Box3> divided(const Box3& box, const AxisPlane& cut) {
   return {Box3(box.lower(), upper_of_first), Box3(lower_of_second, box.upper())};
 }
 
-inline AxisPlane bisector(const Box3& box) {
-  AxisPlane result;
-  double longest = -1;
+// By how much the polynomial may differ along each axis from what it is in the middle of the box.
+inline std::array<double, 3> variations(const domain::HalfSpace<3>& half_space, const Box3& box) {
+  std::array<CertifiedDouble, 3> middle;
+  std::array<double, 3> half{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const double length = box.upper().approximate()[i].value - box.lower().approximate()[i].value;
-    if (length > longest * (1 + 0x1p-20)) {
-      longest = length;
-      result.axis = i;
-    }
+    const double low = box.lower().approximate()[i].value;
+    const double high = box.upper().approximate()[i].value;
+    middle[i] = exactly(low / 2 + high / 2);
+    half[i] = high / 2 - low / 2;
   }
-  result.coordinate = (box.lower()[result.axis] + box.upper()[result.axis]) / 2;
+  std::array<double, 3> result{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::array<double, 3> along{};
+    along[i] = half[i];
+    result[i] = half_space.polynomial().variation(middle, along);
+  }
   return result;
 }
+
+// The axis along which the surfaces vary most, or, of other primitives, the longest of the box.
+class DividingAxis {
+ public:
+  explicit DividingAxis(const Box3& box) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double length = box.upper().approximate()[i].value - box.lower().approximate()[i].value;
+      weights_[i] = 0x1p-20 * length;
+    }
+  }
+  template <SpatialDomain P>
+  void add(const SurfaceTable<P>& table, const LiteralTree& tree, const Box3& box) {
+    if constexpr (requires(const P& p) { variations(p, box); }) {
+      csg::for_each_primitive(tree, [&](const Literal& literal) {
+        if (count_ == enough) return;
+        ++count_;
+        const std::array<double, 3> v = variations(table[literal.surface], box);
+        const double sum = v[0] + v[1] + v[2];
+        for (std::size_t i = 0; i < 3 && sum > 0; ++i) weights_[i] += v[i] / sum;
+      });
+    }
+  }
+  AxisPlane bisector(const Box3& box) const {
+    const auto axis = static_cast<std::size_t>(std::max_element(weights_.begin(), weights_.end()) -
+                                               weights_.begin());
+    return {axis, Rational((box.lower()[axis] + box.upper()[axis]) / 2)};
+  }
+
+ private:
+  static constexpr std::size_t enough = 32;
+  std::array<double, 3> weights_{};
+  std::size_t count_ = 0;
+};
 
 // Of the surfaces that are planes across an axis and cross the box, the nearest to its middle.
 template <SpatialDomain P>
