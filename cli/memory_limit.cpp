@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "exactcsg/support/sanitizer.hpp"
+
 namespace exactcsg::cli {
 
 namespace {
@@ -24,12 +26,6 @@ void* reallocate(void* memory, std::size_t, std::size_t size) {
 }
 void release(void* memory, std::size_t) { std::free(memory); }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool sanitized = true;  // the shadow memory alone is terabytes of address space
-#else
-constexpr bool sanitized = false;
-#endif
-
 // Only the soft limit: oracles are processes of their own and may raise it again.
 void set_soft_limit(decltype(RLIMIT_DATA) what, std::size_t bytes) {
   rlimit limit{};
@@ -42,7 +38,7 @@ void set_soft_limit(decltype(RLIMIT_DATA) what, std::size_t bytes) {
 
 void limit_memory(std::size_t bytes) {
   mp_set_memory_functions(allocate, reallocate, release);
-  if (bytes == 0 || sanitized) return;
+  if (bytes == 0 || has_shadow_memory) return;
   // Data: what is really used. Address space: a second net where the system does not count data;
   // malloc reserves address space for every thread, hence the slack.
   set_soft_limit(RLIMIT_DATA, bytes);

@@ -3,12 +3,10 @@
 
 // Limits of time in tests are loose, but made for code without a sanitizer.
 
+#include "exactcsg/support/sanitizer.hpp"
+
 namespace exactcsg::test {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr double sanitizer_slowdown = 10;
-#else
-inline constexpr double sanitizer_slowdown = 1;
-#endif
+inline constexpr double sanitizer_slowdown = has_shadow_memory ? 10 : 1;
 
 }  // namespace exactcsg::test

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "cli/run_command.hpp"
+#include "exactcsg/support/sanitizer.hpp"
 
 namespace exactcsg::cli_test {
 namespace {
@@ -383,9 +384,7 @@ TEST(Limits, Time) {
 }
 
 TEST(Limits, Memory) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers need address space of their own";
-#endif
+  if (has_shadow_memory) GTEST_SKIP() << "sanitizers need address space of their own";
   const Finished finished = run_command({"measure", model("menger_4"), "--memory-limit", "24M"});
   EXPECT_EQ(finished.exit_code, 2) << finished.err;
   EXPECT_EQ(finished.out, "");

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "exactcsg/support/error.hpp"
+#include "exactcsg/support/sanitizer.hpp"
 #include "exactcsg/verify/boundary_classifier.hpp"
 #include "exactcsg/verify/facet_complex.hpp"
 #include "exactcsg/verify/mesh_comparison.hpp"
@@ -100,6 +101,7 @@ TEST(Process, ForkedWorkHandsBackTextOrItsError) {
 }
 
 TEST(Process, MemoryIsLimited) {
+  if (has_shadow_memory) GTEST_SKIP() << "sanitizers need address space of their own";
   ProcessLimits limits;
   limits.memory = std::size_t{1} << 30U;
   const ProcessResult r = run_forked(

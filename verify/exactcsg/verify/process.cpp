@@ -17,6 +17,7 @@
 #include <new>
 
 #include "exactcsg/support/error.hpp"
+#include "exactcsg/support/sanitizer.hpp"
 
 namespace exactcsg::verify {
 namespace {
@@ -53,7 +54,7 @@ class Pipe {
 
 void limit_memory(std::size_t bytes) {
   const rlimit limit{bytes, bytes};
-  setrlimit(RLIMIT_AS, &limit);
+  if (!has_shadow_memory) setrlimit(RLIMIT_AS, &limit);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
 }
