@@ -175,7 +175,7 @@ class VolumeMeter {
     }
     // Rounding is all that is left, or soon would be.
     constexpr double negligible = 0x1p-42;
-    if (volume.error <= negligible * whole.value || r.a < 0x1p-40) {
+    if (volume.error <= negligible * whole.value || r.a < 0x1p-40 || r.b < 0x1p-40) {
       settled_.add(volume);
       width_ += 2 * volume.error;
       middle_ += volume.value;
@@ -201,11 +201,20 @@ class VolumeMeter {
       add_cell(parts.second, leaf.cell->tree);
       return;
     }
-    const double a = leaf.rectangle.a / 2;
-    const double b = leaf.rectangle.b / 2;
-    for (const double s : {leaf.rectangle.s - a, leaf.rectangle.s + a}) {
-      for (const double t : {leaf.rectangle.t - b, leaf.rectangle.t + b}) {
-        add_rectangle(leaf.column, {s, t, a, b});
+    divide(leaf.column, leaf.rectangle);
+  }
+
+  // Along both sides, or along one if the heights hardly vary along the other.
+  void divide(const std::shared_ptr<const LocalColumn>& column, const Rectangle& r) {
+    constexpr double hardly = 0.25;
+    const std::array<double, 2> variations = column->column.variations(r);
+    const int along_s = variations[0] < hardly * variations[1] ? 1 : 2;
+    const int along_t = variations[1] < hardly * variations[0] ? 1 : 2;
+    const double a = r.a / along_s;
+    const double b = r.b / along_t;
+    for (int i = 0; i < along_s; ++i) {
+      for (int j = 0; j < along_t; ++j) {
+        add_rectangle(column, {r.s - r.a + (2 * i + 1) * a, r.t - r.b + (2 * j + 1) * b, a, b});
       }
     }
   }

@@ -78,6 +78,19 @@ class Column {
   Column(std::vector<UnitQuadric> surfaces, PassedTree tree)
       : surfaces_(std::move(surfaces)), tree_(std::move(tree)) {}
 
+  // How much the heights vary over the rectangle along its first and its second side, roughly.
+  std::array<double, 2> variations(const Rectangle& r) const {
+    const UnitQuadric::Vector anywhere{CertifiedDouble{r.s, r.a}, CertifiedDouble{r.t, r.b},
+                                       CertifiedDouble{0, 1}};
+    std::array<double, 2> result{};
+    for (const UnitQuadric& f : surfaces_) {
+      const double slope = magnitude(f.derivative(2, anywhere));
+      result[0] += magnitude(f.derivative(0, anywhere)) / slope * r.a;
+      result[1] += magnitude(f.derivative(1, anywhere)) / slope * r.b;
+    }
+    return result;
+  }
+
   CertifiedDouble volume(const Rectangle& r) const {
     std::vector<Item> items{Item{bottom, -1, -1, {}}, Item{top, 1, 1, {}}};
     std::vector<State> states(surfaces_.size(), State::Unpassed);

@@ -31,6 +31,7 @@ inline double magnitude(const CertifiedDouble& x) {
 }
 inline bool is_positive(const CertifiedDouble& x) { return x.value > x.error; }
 inline bool is_negative(const CertifiedDouble& x) { return -x.value > x.error; }
+inline bool is_zero(const CertifiedDouble& x) { return x.value == 0 && x.error == 0; }
 inline CertifiedDouble exactly(double value) { return {value, 0}; }
 // Every number within `reach` of x.
 inline CertifiedDouble widened(const CertifiedDouble& x, double reach) {
@@ -141,10 +142,12 @@ class Graph {
     const UnitQuadric::Vector centre{exactly(r.s), exactly(r.t), exactly(middle)};
     const double slope = f.derivative(2, centre).value;
     if (!(slope > 0)) return std::nullopt;
-    double reach = (std::abs(f.derivative(0, centre).value) * r.a +
-                    std::abs(f.derivative(1, centre).value) * r.b) /
-                       slope * 1.0625 +
-                   0x1p-44;
+    const double first = std::abs(f.derivative(0, centre).value) * r.a +
+                         std::abs(f.derivative(1, centre).value) * r.b;
+    const double second = std::abs(f.square[0][0].value) * r.a * r.a +
+                          2 * std::abs(f.square[0][1].value) * r.a * r.b +
+                          std::abs(f.square[1][1].value) * r.b * r.b;
+    double reach = (first + second) / slope * 1.0625 + 0x1p-44;
     for (int attempt = 0; attempt < 4; ++attempt, reach *= 1.5) {
       if (!(reach < 8)) break;
       Graph graph(f, r, middle, reach);
@@ -245,11 +248,13 @@ class Graph {
         if (n == 2) {
           sum = i == 2 ? square[0][0] : j == 2 ? square[1][1] : exactly(2) * square[0][1];
         }
-        if (i > 0) sum = sum + exactly(2) * square[0][2] * z[i - 1][j];
-        if (j > 0) sum = sum + exactly(2) * square[1][2] * z[i][j - 1];
-        if (square[2][2].value != 0 || square[2][2].error != 0) {
-          sum = sum + square[2][2] * square_coefficient(z, i, j);
+        if (i > 0 && !is_zero(square[0][2])) {
+          sum = sum + exactly(2) * square[0][2] * z[i - 1][j];
         }
+        if (j > 0 && !is_zero(square[1][2])) {
+          sum = sum + exactly(2) * square[1][2] * z[i][j - 1];
+        }
+        if (!is_zero(square[2][2])) sum = sum + square[2][2] * square_coefficient(z, i, j);
         z[i][j] = -sum / slope;
       }
     }
@@ -258,10 +263,12 @@ class Graph {
   // Of the square of the series without its constant.
   static CertifiedDouble square_coefficient(const Series& z, std::size_t i, std::size_t j) {
     CertifiedDouble sum;
-    for (std::size_t k = 0; k <= i; ++k) {
+    for (std::size_t k = 0; 2 * k <= i; ++k) {
       for (std::size_t l = 0; l <= j; ++l) {
-        if (k + l == 0 || k + l == i + j) continue;
-        sum = sum + z[k][l] * z[i - k][j - l];
+        if (k + l == 0 || k + l == i + j || (2 * k == i && 2 * l > j)) continue;
+        const CertifiedDouble product = z[k][l] * z[i - k][j - l];
+        sum =
+            sum + (2 * k == i && 2 * l == j ? product : exactly(2) * product);  // twice by symmetry
       }
     }
     return sum;
