@@ -75,6 +75,8 @@ Command add_verify(CLI::App& app);
 Command add_measure(CLI::App& app);
 Command add_classify(CLI::App& app);
 Command add_equal(CLI::App& app);
+Command add_interference(CLI::App& app);
+Command add_contains(CLI::App& app);
 Command add_boundary(CLI::App& app);
 Command add_edges(CLI::App& app);
 std::vector<Command> add_golden(CLI::App& app);

@@ -202,6 +202,15 @@ TEST(Classify, MalformedPointsArePlaced) {
 
 // The same L-shaped block twice: as a difference and as a union of three boxes (by eye: what
 // remains of 2 x 2 x 1 after the corner 1 x 1 x 1 is gone).
+// The point that a command prints, as classify takes it.
+std::string witness_of(const std::string& output) {
+  std::smatch match;
+  if (!std::regex_search(output, match, std::regex("exactly +\\((.*)\\)"))) return "no witness";
+  std::string point = match[1];
+  point.erase(std::remove(point.begin(), point.end(), ','), point.end());
+  return point;
+}
+
 TEST(Equal, TwoWaysToWriteOneSolid) {
   const Folder folder;
   const std::string first =
@@ -226,16 +235,55 @@ TEST(Equal, ACutOfOneBillionth) {
             std::string::npos)
       << finished.out;
   // The witness, given back to classify, is as claimed.
-  std::smatch match;
-  ASSERT_TRUE(std::regex_search(finished.out, match, std::regex("exactly +\\((.*)\\)")));
-  std::string point = match[1];
-  point.erase(std::remove(point.begin(), point.end(), ','), point.end());
+  const std::string point = witness_of(finished.out);
   EXPECT_EQ(run_command({"classify", first, "--points", "-"}, point).out, "In\n");
   EXPECT_EQ(run_command({"classify", second, "--points", "-"}, point).out, "Out\n");
   // The other way round it lies in the second.
   const Finished turned = run_command({"equal", second, first});
   EXPECT_EQ(turned.exit_code, 1);
   EXPECT_NE(turned.out.find("a point lies in " + first), std::string::npos);
+}
+
+// Unit cubes, the second moved along x.
+std::string moved_cube(const Folder& folder, const std::string& name, const std::string& by) {
+  return folder.write(name, "multmatrix([[1,0,0," + by +
+                                "],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(size = [1, 1, 1]); }\n");
+}
+
+TEST(Interference, TouchingIsNone) {
+  const Folder folder;
+  const std::string one = moved_cube(folder, "a.csg", "0");
+  const Finished touching = run_command({"interference", one, moved_cube(folder, "b.csg", "1")});
+  EXPECT_EQ(touching.exit_code, 0) << touching.out;
+  EXPECT_EQ(touching.out, "no interference: at most the boundaries meet\n");
+}
+
+// An overlap of 1e-9 in one direction, of 1 in the others.
+TEST(Interference, OfOneBillionth) {
+  const Folder folder;
+  const std::string one = moved_cube(folder, "a.csg", "0");
+  const std::string two = moved_cube(folder, "b.csg", "0.999999999");
+  const Finished finished = run_command({"interference", one, two});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_NE(finished.out.find("of volume 1e-09;"), std::string::npos) << finished.out;
+  const std::string point = witness_of(finished.out);
+  EXPECT_EQ(run_command({"classify", one, "--points", "-"}, point).out, "In\n");
+  EXPECT_EQ(run_command({"classify", two, "--points", "-"}, point).out, "In\n");
+}
+
+TEST(Contains, ASolidThatReachesTheBoundary) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.csg", "cube(size = [3, 3, 3]);\n");
+  const std::string inside = folder.write("notched.csg", notched);
+  EXPECT_EQ(run_command({"contains", cube, inside}).exit_code, 0);
+  EXPECT_EQ(run_command({"contains", cube, cube}).exit_code, 0);
+  // What lies outside is the notch: a unit cube.
+  const Finished not_contained = run_command({"contains", inside, cube});
+  EXPECT_EQ(not_contained.exit_code, 1);
+  EXPECT_NE(not_contained.out.find("of volume 1;"), std::string::npos) << not_contained.out;
+  const std::string point = witness_of(not_contained.out);
+  EXPECT_EQ(run_command({"classify", cube, "--points", "-"}, point).out, "In\n");
+  EXPECT_EQ(run_command({"classify", inside, "--points", "-"}, point).out, "Out\n");
 }
 
 // What is written is read back as the same solid: integers are exact in every format.

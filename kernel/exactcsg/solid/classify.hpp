@@ -51,5 +51,7 @@ std::optional<Difference> find_difference(const Solid& first, const Solid& secon
 
 // A point of the solid's interior; nullopt if it is empty.
 std::optional<Point3> interior_point(const Solid& solid, const EvaluateOptions& options = {});
+// The same, where the boundary is known. REQUIRES it is the solid's.
+std::optional<Point3> interior_point(const Solid& solid, const Boundary& boundary);
 
 }  // namespace exactcsg

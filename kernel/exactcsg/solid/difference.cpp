@@ -50,7 +50,10 @@ std::optional<Point3> point_behind(const Solid& solid, const Boundary& boundary,
 }  // namespace
 
 std::optional<Point3> interior_point(const Solid& solid, const EvaluateOptions& options) {
-  const Boundary boundary = evaluate(solid, options);
+  return interior_point(solid, evaluate(solid, options));
+}
+
+std::optional<Point3> interior_point(const Solid& solid, const Boundary& boundary) {
   for (const BoundaryFace& face : boundary.faces) {
     if (auto point = point_behind(solid, boundary, face)) return point;
   }
