@@ -9,6 +9,7 @@
 
 #include "exactcsg/domain/classify.hpp"
 #include "measure/curved_solids.hpp"
+#include "measure/opaque_domain.hpp"
 #include "measure/random_solids.hpp"
 
 namespace exactcsg::measure::test {
@@ -107,19 +108,6 @@ TEST(CertifiedVolume, APlaceFarAwayCostsNoPrecision) {
   EXPECT_EQ(measure.stop, StopReason::Width);
   EXPECT_TRUE(encloses(measure.value, 4e-6 * std::numbers::pi / 3));
 }
-
-// A domain of which only the concept is known.
-struct Opaque {
-  static constexpr std::size_t dimension = 3;
-  HalfSpace<3> half_space;
-};
-PointClass classify(const Opaque& o, const Point<3>& p) { return classify(o.half_space, p); }
-csg::Membership classify(const Opaque& o, const Box<3>& b) { return classify(o.half_space, b); }
-domain::Section section(const Opaque& o, const domain::LineSection<3>& line) {
-  return section(o.half_space, line);
-}
-Opaque complement(const Opaque& o) { return {complement(o.half_space)}; }
-static_assert(SpatialDomain<Opaque>);
 
 TEST(CertifiedVolume, AnyDomainOfSpaceIsMeasured) {
   const auto opaque = csg::BooleanTree<Opaque>::primitive({domain::make_sphere(point(0, 0, 0), 1)});

@@ -10,6 +10,7 @@
 
 #include "exactcsg/domain/classify.hpp"
 #include "measure/curved_solids.hpp"
+#include "measure/opaque_domain.hpp"
 #include "measure/random_solids.hpp"
 
 namespace exactcsg::measure::test {
@@ -202,6 +203,21 @@ TEST(RegionProof, LimitsEndTheWork) {
   EXPECT_EQ(progress.done(), 1U);
   limits.progress = nullptr;
   EXPECT_TRUE(is_proved(disjoint(regions, box, limits)));
+}
+
+// Of a domain that has no polynomials, nothing is known but classes of points and boxes.
+TEST(RegionProof, AnyDomainOfSpaceIsProved) {
+  using Set = csg::BooleanTree<Opaque>;
+  const auto sphere = [](int x) {
+    return Set::primitive({domain::make_sphere(point(x, 0, 0), 1)});
+  };
+  const Box<3> box = cube(5);
+  EXPECT_TRUE(std::holds_alternative<Proved>(prove_disjoint(sphere(-2), sphere(2), box)));
+  const Proof proof = prove_disjoint(sphere(0), sphere(1), box);
+  ASSERT_TRUE(std::holds_alternative<Refuted>(proof));
+  const Point<3>& witness = std::get<Refuted>(proof).witnesses.front().point;
+  EXPECT_EQ(classify(sphere(0), witness), PointClass::In);
+  EXPECT_EQ(classify(sphere(1), witness), PointClass::In);
 }
 
 // LAW region_proof.1 to 3 against certified volumes: of the intersection, and of what is left of

@@ -22,8 +22,11 @@
 // Source: Davy and Dew, section 3.4 and 5.3 (the area of a set by division and pruning); bounds,
 // columns and best-first order are ours.
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <queue>
 #include <utility>

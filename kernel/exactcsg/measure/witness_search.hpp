@@ -10,6 +10,7 @@
 // the thin lens in which both are negative, if there is one; where the sets only touch, it is the
 // point of contact. So one search along mu serves both ends.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
