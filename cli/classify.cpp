@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "cli/command.hpp"
+#include "cli/openmc.hpp"
 #include "exactcsg/solid/classify.hpp"
 
 namespace exactcsg::cli {
@@ -114,6 +115,9 @@ Answer classify_points(Context& context, const Arguments& arguments) {
   const std::vector<Point3> points =
       parse_points(read_points_text(arguments.points),
                    arguments.points == "-" ? std::string("stdin") : arguments.points);
+  if (io::openmc::is_geometry_file(arguments.model)) {
+    return locate_points(context, arguments.model, points);
+  }
   const io::Model model = read(context, arguments.model);
   if (points.size() <= few_points) {
     for (const Point3& point : points) context.print(name_of(classify(model.solid, point)));
@@ -134,7 +138,9 @@ Answer classify_points(Context& context, const Arguments& arguments) {
 Command add_classify(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      app.add_subcommand("classify", "Is each point in, on or out of the solid? One word a line.");
+      app.add_subcommand("classify",
+                         "Is each point in, on or out of the solid? One word a line.\n"
+                         "Of an OpenMC geometry: in which cell, and through which universes?");
   command->add_option("MODEL", arguments->model, "the model")->required();
   command
       ->add_option("--points", arguments->points,

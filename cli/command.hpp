@@ -82,6 +82,9 @@ Command add_edges(CLI::App& app);
 std::vector<Command> add_golden(CLI::App& app);
 Command add_info(CLI::App& app);
 
+// A line for each warning of a reader.
+void pass_on(Context& context, const std::vector<io::Warning>& warnings);
+
 // Reads a model and passes its warnings on.
 io::Model read(Context& context, const std::filesystem::path& file);
 

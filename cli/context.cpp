@@ -49,6 +49,15 @@ std::size_t facets_of(const Solid& solid) {
 
 }  // namespace
 
+void pass_on(Context& context, const std::vector<io::Warning>& warnings) {
+  for (const io::Warning& warning : warnings) {
+    const SourcePosition& at = warning.position;
+    context.warn(at.line == 0 ? fmt::format("{}: warning: {}", at.file, warning.text)
+                              : fmt::format("{}:{}:{}: warning: {}", at.file, at.line, at.column,
+                                            warning.text));
+  }
+}
+
 io::Model read(Context& context, const std::filesystem::path& file) {
   io::ReadOptions options;
   options.progress = &context.progress();
@@ -56,12 +65,7 @@ io::Model read(Context& context, const std::filesystem::path& file) {
   io::Model model = io::read_model(file, options);
   if (facets_of(model.solid) > few_facets) use_huge_pages();
   if (!model.front_end_messages.empty()) context.warn("openscad: " + model.front_end_messages);
-  for (const io::Warning& warning : model.warnings) {
-    const SourcePosition& at = warning.position;
-    context.warn(at.line == 0 ? fmt::format("{}: warning: {}", at.file, warning.text)
-                              : fmt::format("{}:{}:{}: warning: {}", at.file, at.line, at.column,
-                                            warning.text));
-  }
+  pass_on(context, model.warnings);
   return model;
 }
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "cli/command.hpp"
+#include "cli/openmc.hpp"
 #include "exactcsg/csg/walk.hpp"
 #include "exactcsg/number/enclosure.hpp"
 
@@ -52,6 +53,7 @@ Counts count(const Solid& solid) {
 }
 
 Answer print_info(Context& context, const std::string& file) {
+  if (io::openmc::is_geometry_file(file)) return print_geometry_info(context, file);
   const io::Model model = read(context, file);
   const Counts counts = count(model.solid);
   std::string text;

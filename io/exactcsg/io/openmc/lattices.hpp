@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Lattices: how they are read, and which element a point is in. [Exact]
+//
+// Rectangular: the first row of the file has the highest y, x ascends, layers ascend. Hexagonal
+// ones: rows from the highest y, x ascends; with p the pitch and s = sqrt(3)/2 rounded, the element
+// (i, a) has its centre at (s p i, p (a + i/2)) for orientation y, at (p (i + a/2), s p a) for x,
+// relative to the lattice's. An element is a hexagon of the plane's tiling by them, that of regular
+// hexagons but for the rounding of s.
+
+#include "exactcsg/io/openmc/located_xml.hpp"
+#include "exactcsg/io/openmc/model.hpp"
+
+namespace exactcsg::io::openmc {
+
+// The ids that a lattice names, in the place of the indices, which are known later.
+struct LatticeText {
+  Lattice lattice;
+  std::vector<Field> elements;  // in the order of Lattice::elements
+  std::optional<Field> outer;
+};
+
+// Of a <lattice> or <hex_lattice>. THROWS Error(MissingValue | WrongCount | BadArgument |
+// UnknownNode | TooLarge) and those of numbers
+LatticeText read_lattice(const Element& element);
+
+struct LatticePlace {
+  // On the boundary between two elements, or of one and the outside.
+  bool is_on_boundary = false;
+  // nullopt: outside. Rectangular: along x, y, z from 0; hexagonal: i, a and the layer from 0.
+  std::optional<std::array<std::int64_t, 3>> element;
+  std::optional<Index> universe;  // of the element, or outer; nullopt: a gap
+  Point local;                    // relative to the element's centre; a lattice without layers
+                                  // leaves z alone
+};
+LatticePlace place_in(const Lattice& lattice, const Point& point);
+
+// The position in Lattice::elements. REQUIRES an element of the lattice.
+std::size_t element_index(const Lattice& lattice, const std::array<std::int64_t, 3>& element);
+// REQUIRES the same
+domain::Coordinates<3> centre_of(const Lattice& lattice,
+                                 const std::array<std::int64_t, 3>& element);
+
+}  // namespace exactcsg::io::openmc

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The kinds of surfaces, their coefficients and their half-spaces. [Exact]
+//
+// plane A B C D; x-, y-, z-plane x0; sphere x0 y0 z0 r; x-, y-, z-cylinder: the two coordinates of
+// the axis, then r; x-, y-, z-cone x0 y0 z0 r2, both nappes; quadric A B C D E F G H J K, where D,
+// E and F belong to xy, yz and xz. Tori are checked and then refused: their half-spaces are of
+// degree four.
+
+#include "exactcsg/io/openmc/located_xml.hpp"
+#include "exactcsg/io/openmc/model.hpp"
+
+namespace exactcsg::io::openmc {
+
+// THROWS Error with a place: UnknownNode (type, boundary), MissingValue, WrongCount, BadArgument (a
+// negative radius), DegenerateSurface (no surface has this equation), UnsupportedNode (a torus),
+// and those of numbers.
+Surface read_surface(const Element& element);
+
+// True if f is below 0 somewhere and above 0 somewhere: then it is round each of its zeros, and
+// f = 0 is a surface. COST: O(1) rational operations.
+bool takes_both_signs(const domain::Quadric<3>& f);
+
+// Where the surface lies along an axis, roughly, for dividing space: {greater, less} if it is not
+// bounded there. [Approximate]
+std::array<double, 2> extent_along(const Surface& surface, std::size_t axis);
+
+}  // namespace exactcsg::io::openmc

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The models of data/openmc: the place of points that follows from what was planted
+// (data/openmc/README.md), and that random points of the clean ones are in one cell.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <ostream>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "exactcsg/io/openmc/point_location.hpp"
+
+namespace exactcsg::io::openmc {
+namespace {
+
+struct Case {
+  const char* model;
+  std::array<const char*, 3> point;
+  PointVerdict verdict;
+  std::vector<Id> cells;  // of the last universe
+};
+
+void PrintTo(const Case& c, std::ostream* stream) { *stream << c.model; }
+
+using enum PointVerdict;
+const Case cases[] = {
+    {"pin_cell", {"0", "0", "0"}, InCell, {1}},
+    {"pin_cell", {"0.41", "0", "0"}, InCell, {2}},
+    {"pin_cell", {"0", "-0.475", "3"}, OnBoundary, {3, 4}},
+    {"pin_cell", {"0.62", "0.62", "9"}, InCell, {4}},
+    {"pin_cell_missing_cell", {"0.41", "0", "0"}, InGap, {}},
+    // The centre pin is an instrument tube; its right neighbour a pin.
+    {"assembly_17x17", {"0", "0", "0"}, InCell, {5}},
+    {"assembly_17x17", {"1.26", "0", "100"}, InCell, {1}},
+    {"assembly_17x17", {"0.63", "0.1", "0"}, OnBoundary, {}},
+    {"assembly_17x17", {"10.7", "10.7", "0"}, InCell, {4}},
+    // 17 * 1.25 / 2 = 10.625 and 17 * 1.26 / 2 = 10.71.
+    {"assembly_17x17_wrong_pitch", {"10.624", "0", "0"}, InCell, {4}},
+    {"assembly_17x17_wrong_pitch", {"10.63", "0", "0"}, InGap, {}},
+    // Pin 143 (row 8, column 6) has its centre at -2.52, its neighbour's at -1.26.
+    {"assembly_17x17_flat", {"-1.735", "0", "0"}, OnBoundary, {144, 1000}},
+    {"assembly_17x17_flat", {"-1.7350005", "0", "0"}, InCell, {1000}},
+    // The moved pin reaches from its centre -2.209999 to -1.734999; the neighbour begins at -1.735.
+    {"assembly_17x17_overlap", {"-1.7349995", "0", "0"}, InOverlap, {143, 144}},
+    {"assembly_17x17_overlap", {"-1.7350005", "0", "0"}, InCell, {143}},
+    // The middle of the core, a pin at (1.2, 0) of an assembly, the water beyond its last pin.
+    {"hexagonal_core", {"0", "0", "0"}, InCell, {1}},
+    {"hexagonal_core", {"1.2", "0.3", "0"}, InCell, {1}},
+    {"hexagonal_core", {"0.6", "0.1", "0"}, OnBoundary, {}},
+    {"hexagonal_core", {"0.1", "4.2", "0"}, InCell, {3}},
+    {"hexagonal_core", {"0", "8.5", "0"}, InCell, {1}},
+    {"hexagonal_core", {"0", "24", "0"}, InCell, {3}},
+    {"sphere_shells", {"2.5", "0", "0"}, InCell, {3}},
+    {"sphere_shells", {"2", "1", "2"}, OnBoundary, {3, 4}},
+    {"room_with_window", {"265", "0", "0"}, InCell, {3}},
+    {"room_with_window", {"264", "0", "0"}, InCell, {4}},
+    {"room_with_window", {"265", "60", "0"}, InCell, {2}},
+    {"room_with_window", {"250", "0", "0"}, OnBoundary, {1, 4}},
+    // The capsule reaches to 3 along its axis and to 1 across; turned by 90 degrees about z.
+    {"turned_units", {"-7.5", "0", "0"}, InCell, {1}},
+    {"turned_units", {"0", "2.5", "0"}, InCell, {1}},
+    {"turned_units", {"2.5", "0", "0"}, InCell, {2}},
+    // By 30 degrees about y: x goes to (cos 30, 0, -sin 30).
+    {"turned_units", {"12.1", "0", "-1.2"}, InCell, {1}},
+    {"turned_units", {"12.1", "0", "1.2"}, InCell, {2}},
+    {"funnel", {"0", "0", "6"}, InCell, {1}},
+    {"funnel", {"1", "0", "4"}, InCell, {2}},
+    {"funnel", {"1", "0", "-4"}, InCell, {3}},
+    {"funnel", {"0", "0", "11"}, InCell, {3}},
+    // At 45 degrees, 1.99995 from the axis at (8, 8): 8 + 1.99995 / sqrt(2) = 9.4141781...
+    {"rounded_corner", {"9.41417", "9.41417", "0"}, InCell, {1}},
+    {"rounded_corner_gap", {"9.41417", "9.41417", "0"}, InGap, {}},
+    {"rounded_corner_gap", {"9.41", "9.41", "0"}, InCell, {1}},
+    {"coincident_surfaces", {"0.5", "0", "0"}, OnBoundary, {1, 2}},
+    {"coincident_surfaces", {"0.6", "0", "0"}, InCell, {2}},
+    {"touching_ball", {"0.3", "0", "0"}, OnBoundary, {1, 2, 3}},
+    {"touching_ball", {"0.3", "0.1", "0"}, OnBoundary, {2, 3}},
+};
+
+std::filesystem::path folder() {
+  return std::filesystem::path(EXACTCSG_SOURCE_DIR) / "data" / "openmc";
+}
+Model read(const std::string& name) { return read_geometry_file(folder() / (name + ".xml")); }
+
+class PlacesInOpenMcModels : public testing::TestWithParam<Case> {};
+
+TEST_P(PlacesInOpenMcModels, AreThoseOfTheDescription) {
+  const Case& c = GetParam();
+  const Model model = read(c.model);
+  EXPECT_TRUE(model.warnings.empty());
+  const Point point(*parse_rational(c.point[0]), *parse_rational(c.point[1]),
+                    *parse_rational(c.point[2]));
+  const Location location = locate(model, point);
+  EXPECT_EQ(location.verdict, c.verdict);
+  std::vector<Id> cells;
+  for (const Index cell : location.cells) cells.push_back(model.cells[cell].id);
+  EXPECT_EQ(cells, c.cells);
+  EXPECT_EQ(PointLocator(model)(point), location);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, PlacesInOpenMcModels, testing::ValuesIn(cases));
+
+TEST(OpenMcModels, AreAllInTheTable) {
+  std::set<std::string> named;
+  for (const Case& c : cases) named.insert(c.model);
+  std::set<std::string> there;
+  for (const auto& entry : std::filesystem::directory_iterator(folder())) {
+    if (entry.path().extension() == ".xml") there.insert(entry.path().stem().string());
+  }
+  EXPECT_EQ(named, there);
+  EXPECT_GE(there.size(), 10U);
+}
+
+struct Clean {
+  const char* model;
+  std::array<int, 3> reach;  // a box within the model
+};
+// Random points of a model without a defect are in one cell, or, rarely, on a boundary. (A defect
+// of small volume would hardly be found so: that is what witnesses and proofs are for.)
+TEST(OpenMcModels, CleanOnesHaveNoGapAndNoOverlapAtRandomPoints) {
+  const Clean clean[] = {{"pin_cell", {6, 6, 100}},
+                         {"assembly_17x17", {107, 107, 1800}},
+                         {"assembly_17x17_flat", {107, 107, 1800}},
+                         {"hexagonal_core", {170, 170, 500}},
+                         {"sphere_shells", {34, 34, 34}},
+                         {"room_with_window", {2799, 2799, 2799}},
+                         {"turned_units", {110, 110, 110}},
+                         {"funnel", {170, 170, 170}},
+                         {"rounded_corner", {119, 119, 99}},
+                         {"coincident_surfaces", {49, 49, 49}},
+                         {"touching_ball", {9, 9, 9}}};
+  std::mt19937 random(20261122);
+  for (const auto& [name, reach] : clean) {
+    const Model model = read(name);
+    const PointLocator locator(model);
+    for (int k = 0; k < 400; ++k) {
+      domain::Coordinates<3> x;
+      for (std::size_t i = 0; i < 3; ++i) {
+        std::uniform_int_distribution<int> tenths(-reach[i] * 1000, reach[i] * 1000);
+        x[i] = Rational(tenths(random), 10'000);
+        x[i].canonicalize();
+      }
+      const PointVerdict verdict = locator(Point(x)).verdict;
+      EXPECT_TRUE(verdict == InCell || verdict == OnBoundary) << name << " " << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace exactcsg::io::openmc
