@@ -5,12 +5,15 @@
 // with their definition in plain rational arithmetic, written here from the geometry (distances,
 // not the library's polynomials), and one point of the boundary.
 
+#include <array>
 #include <functional>
 #include <tuple>
+#include <vector>
 
 #include "domain/random_rationals.hpp"
 #include "exactcsg/domain/bounded_primitives.hpp"
 #include "exactcsg/domain/classify.hpp"
+#include "exactcsg/domain/curve_region.hpp"
 #include "exactcsg/domain/half_spaces.hpp"
 
 namespace exactcsg::domain::test {
@@ -349,6 +352,63 @@ struct BoundedConeRow : TreeRow {
   }
 };
 
+// A polygon that is star-shaped about its centre: corners in the eight directions of a compass.
+struct CurveSample : Sample<CurveRegion, 2> {
+  std::vector<Coordinates<2>> corners;
+};
+
+// Crossings of the ray to the right of x, counted edge by edge in rationals.
+inline int class_by_edges(const std::vector<Coordinates<2>>& corners, const Coordinates<2>& x) {
+  bool inside = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Coordinates<2>& p = corners[i];
+    const Coordinates<2>& q = corners[(i + 1) % corners.size()];
+    const Coordinates<2> along = difference(q, p);
+    const Coordinates<2> to_x = difference(x, p);
+    const Rational side = along[0] * to_x[1] - along[1] * to_x[0];
+    const Rational share = scalar_product(along, to_x);
+    if (side == 0 && share >= 0 && share <= squared(along)) return 0;
+    const bool is_upward = p[1] <= x[1] && x[1] < q[1];
+    const bool is_downward = q[1] <= x[1] && x[1] < p[1];
+    if ((is_upward && side > 0) || (is_downward && side < 0)) inside = !inside;
+  }
+  return inside ? -1 : 1;
+}
+
+struct StripTreeRow {
+  static constexpr const char* name = "strip_tree";
+  static constexpr std::size_t dimension = 2;
+  // The value only has a sign, which no search can follow; see CurveRegion.BoxesAreExact.
+  static constexpr bool is_exact_for_boxes = false;
+
+  static CurveSample sample(Random& random) {
+    static constexpr std::array<std::array<int, 2>, 8> compass{
+        {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+    const double x = static_cast<double>(random.integer(-8, 8)) / 4;
+    const double y = static_cast<double>(random.integer(-8, 8)) / 4;
+    std::vector<CurvePoint> points;
+    for (const auto& [east, north] : compass) {
+      const double reach = static_cast<double>(random.integer(1, 16)) / 4;
+      points.push_back({x + reach * east, y + reach * north});
+    }
+    std::vector<Coordinates<2>> corners;
+    for (const CurvePoint& p : points) corners.push_back({Rational(p.x), Rational(p.y)});
+    points.push_back(points.front());
+    const auto value = [corners](const Coordinates<2>& at) {
+      return Rational(class_by_edges(corners, at));
+    };
+    return {{CurveRegion(make_strip_tree(points)), value, corners.front()}, corners};
+  }
+
+  // A point of an edge, its ends included.
+  static Coordinates<2> degenerate_point(const CurveSample& sample, Random& random) {
+    const auto i = static_cast<std::size_t>(random.integer(0, 7));
+    const Coordinates<2>& p = sample.corners[i];
+    const Rational share = Rational(random.integer(0, 7)) / 7;
+    return moved(p, share, difference(sample.corners[(i + 1) % 8], p));
+  }
+};
+
 // One row for each domain.
 using Rows = std::tuple<LineRow,             //
                         DiscRow,             //
@@ -362,6 +422,7 @@ using Rows = std::tuple<LineRow,             //
                         BoundedBallRow,      //
                         BoundedCylinderRow,  //
                         BoundedConeRow,      //
-                        WedgeRow>;
+                        WedgeRow,            //
+                        StripTreeRow>;
 
 }  // namespace exactcsg::domain::test
