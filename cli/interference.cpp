@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <memory>
-
-#include "cli/command.hpp"
-#include "exactcsg/number/enclosure.hpp"
+#include "cli/two_models.hpp"
 #include "exactcsg/solid/classify.hpp"
 #include "exactcsg/solid/figures.hpp"
 
 namespace exactcsg::cli {
 
 namespace {
-
-struct Arguments {
-  std::string first;
-  std::string second;
-};
-
-constexpr int digits = 17;
 
 // The answer is yes if the solid is empty, else no with its volume and a point of it.
 Answer answer_by_emptiness(Context& context, const Solid& solid, const std::string& if_empty,
@@ -28,58 +18,52 @@ Answer answer_by_emptiness(Context& context, const Solid& solid, const std::stri
     context.print(if_empty + "\n");
     return Answer::Yes;
   }
+  constexpr int digits = 17;
   constexpr std::size_t no_exact_volume = 0;
-  const Point3& p = *witness;
-  context.print(fmt::format(
-      "{}, of volume {}; a point of it is\n"
-      "  exactly  ({}, {}, {})\n"
-      "  nearly   ({}, {}, {})\n",
-      if_not, measure(boundary, digits, no_exact_volume).volume_decimal, to_text(p.x), to_text(p.y),
-      to_text(p.z), to_decimal(p.x, digits), to_decimal(p.y, digits), to_decimal(p.z, digits)));
+  context.print(fmt::format("{}, of volume {}; a point of it is\n{}", if_not,
+                            measure(boundary, digits, no_exact_volume).volume_decimal,
+                            witness_lines(*witness)));
   return Answer::No;
 }
 
-Answer interference(Context& context, const Arguments& arguments) {
-  const io::Model first = read(context, arguments.first);
-  const io::Model second = read(context, arguments.second);
+Answer interference(Context& context, const TwoModels& models) {
+  const io::Model first = read(context, models.first);
+  const io::Model second = read(context, models.second);
   return answer_by_emptiness(
       context, csg::intersect(first.solid, second.solid),
       "no interference: at most the boundaries meet",
-      fmt::format("interference: a part of {} lies in {}", arguments.second, arguments.first));
+      fmt::format("interference: a part of {} lies in {}", models.second, models.first));
 }
 
-Answer contains(Context& context, const Arguments& arguments) {
-  const io::Model outer = read(context, arguments.first);
-  const io::Model inner = read(context, arguments.second);
+Answer contains(Context& context, const TwoModels& models) {
+  const io::Model outer = read(context, models.first);
+  const io::Model inner = read(context, models.second);
   return answer_by_emptiness(
       context, csg::subtract(inner.solid, outer.solid),
-      fmt::format("contained: all of {} lies in {}", arguments.second, arguments.first),
-      fmt::format("not contained: a part of {} lies outside {}", arguments.second,
-                  arguments.first));
+      fmt::format("contained: all of {} lies in {}", models.second, models.first),
+      fmt::format("not contained: a part of {} lies outside {}", models.second, models.first));
 }
 
 }  // namespace
 
 Command add_interference(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "interference",
-      "Exit 0 if no part of one model lies in the other; touching is none. If one does, print its "
-      "volume and a point of it.");
-  command->add_option("A", arguments->first, "a model")->required();
-  command->add_option("B", arguments->second, "another")->required();
-  return {command, [arguments](Context& context) { return interference(context, *arguments); }};
+  return add_command_on_two_models(
+      app,
+      {"interference",
+       "Exit 0 if no part of one model lies in the other; touching is none. If one does, print its "
+       "volume and a point of it.",
+       "a model", "another"},
+      interference);
 }
 
 Command add_contains(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "contains",
-      "Exit 0 if all of B lies in A. If not, print the volume of what lies outside, and a point "
-      "of it.");
-  command->add_option("A", arguments->first, "the model that may contain the other")->required();
-  command->add_option("B", arguments->second, "the other")->required();
-  return {command, [arguments](Context& context) { return contains(context, *arguments); }};
+  return add_command_on_two_models(
+      app,
+      {"contains",
+       "Exit 0 if all of B lies in A. If not, print the volume of what lies outside, and a point "
+       "of it.",
+       "the model that may contain the other", "the other"},
+      contains);
 }
 
 }  // namespace exactcsg::cli
