@@ -9,14 +9,14 @@
 //
 // Where the coordinates have a short common denominator, the integer sums of measures.cpp are exact
 // already. Elsewhere terms are added by divide and conquer, depth first: as soon as a partial sum
-// is too long, the work ends, long before the long sums at the top are made; so planes are computed
-// one by one, since those of all faces are more work than all the rest. Faces are taken in the
+// is too long, the work ends, long before the long sums at the top are made. Faces are taken in the
 // canonical order, in which neighbours are near each other: what they add has common denominators.
 
 #include <algorithm>
 #include <functional>
 #include <utility>
 
+#include "exactcsg/number/homogeneous.hpp"
 #include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/solid/measures.hpp"
 #include "exactcsg/solid/scaled_vertices.hpp"
@@ -80,11 +80,7 @@ Rational projected_area(const Boundary& boundary, const BoundaryFace& face, std:
   return total;
 }
 
-// (x, y, z) / scale.
-struct Homogeneous {
-  std::array<Integer, 3> coordinates;
-  Integer scale;
-};
+using HomogeneousPoint = Homogeneous<Integer>;
 
 // The vertices, each brought to a common denominator when it is first asked for.
 class HomogeneousVertices {
@@ -93,30 +89,21 @@ class HomogeneousVertices {
       : boundary_(boundary), known_(boundary.vertices.size()) {}
   const Boundary& boundary() const { return boundary_; }
 
-  const Homogeneous& of(std::uint32_t vertex) {
-    Homogeneous& found = known_[vertex];
-    if (found.scale != 0) return found;
-    const Point3& p = boundary_.vertices[vertex];
-    found.scale = lcm(lcm(p.x.get_den(), p.y.get_den()), p.z.get_den());
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Rational& value = coordinate(p, i);
-      mpz_divexact(found.coordinates[i].get_mpz_t(), found.scale.get_mpz_t(),
-                   value.get_den_mpz_t());
-      found.coordinates[i] *= value.get_num();
-    }
+  const HomogeneousPoint& of(std::uint32_t vertex) {
+    HomogeneousPoint& found = known_[vertex];
+    if (found.w == 0) found = homogeneous_of(boundary_.vertices[vertex]);
     return found;
   }
 
  private:
   const Boundary& boundary_;
-  std::vector<Homogeneous> known_;
+  std::vector<HomogeneousPoint> known_;
 };
 
-Integer determinant(const Homogeneous& p, const Homogeneous& q, const Homogeneous& r) {
-  const auto& [a, b, c] = p.coordinates;
-  const auto& [d, e, f] = q.coordinates;
-  const auto& [g, h, i] = r.coordinates;
-  return a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g);
+Integer determinant(const HomogeneousPoint& p, const HomogeneousPoint& q,
+                    const HomogeneousPoint& r) {
+  return p.x * (q.y * r.z - q.z * r.y) + p.y * (q.z * r.x - q.x * r.z) +
+         p.z * (q.x * r.y - q.y * r.x);
 }
 
 Rational quotient(Integer numerator, Integer denominator) {
@@ -129,16 +116,16 @@ Rational quotient(Integer numerator, Integer denominator) {
 
 // Six volumes, and for N == 4 also 24 first moments, of the cone from the origin.
 template <std::size_t N>
-Sums<N> cone_over(const Homogeneous& p, const Homogeneous& q, const Homogeneous& r) {
+Sums<N> cone_over(const HomogeneousPoint& p, const HomogeneousPoint& q, const HomogeneousPoint& r) {
   Sums<N> sums;
   const Integer six_volumes = determinant(p, q, r);
   if (six_volumes == 0) return sums;
-  const Integer scale = p.scale * q.scale * r.scale;
+  const Integer scale = p.w * q.w * r.w;
   sums[0] = quotient(six_volumes, scale);
   for (std::size_t i = 1; i < N; ++i) {
-    const Integer sum = p.coordinates[i - 1] * q.scale * r.scale +
-                        q.coordinates[i - 1] * r.scale * p.scale +
-                        r.coordinates[i - 1] * p.scale * q.scale;
+    const auto axis = static_cast<Axis>(i - 1);
+    const Integer sum = coordinate(p, axis) * q.w * r.w + coordinate(q, axis) * r.w * p.w +
+                        coordinate(r, axis) * p.w * q.w;
     sums[i] = quotient(six_volumes * sum, scale * scale);
   }
   return sums;
