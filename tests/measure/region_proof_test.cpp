@@ -122,6 +122,57 @@ TEST(RegionProof, TouchingIsNotOverlapping) {
   for (const Regions& regions : cases) EXPECT_TRUE(is_proved(disjoint(regions, cube(4))));
 }
 
+Proof partition(const Regions& regions, const Solid3& within, const Box<3>& box) {
+  ProofLimits limits;
+  limits.witnesses = 100;
+  return prove_partition(std::span<const Solid3>(regions), within, box, limits);
+}
+std::vector<std::vector<std::size_t>> named_in(const Proof& proof) {
+  std::vector<std::vector<std::size_t>> named;
+  for (const Witness& witness : std::get<Refuted>(proof).witnesses)
+    named.push_back(witness.regions);
+  std::sort(named.begin(), named.end());
+  return named;
+}
+
+// Of shells, and of all but one of them, within sets in which the missing one has a part or none.
+TEST(RegionProof, APartitionHasNeitherOverlapNorGapWhereItIsAsked) {
+  Regions regions = shells(4);
+  const Box<3> box = cube(5);
+  EXPECT_TRUE(is_proved(partition(regions, Solid3::full(), box)));
+  regions.erase(regions.begin() + 2);  // between radii 2 and 3
+  const Proof with_gap = partition(regions, Solid3::full(), box);
+  EXPECT_EQ(named_in(with_gap), (std::vector<std::vector<std::size_t>>{{}}));
+  EXPECT_TRUE(std::get<Refuted>(with_gap).is_complete);
+  EXPECT_TRUE(std::get<Refuted>(with_gap).rest.cells.empty());
+  EXPECT_TRUE(is_proved(partition(regions, ball({}, 4), box)));
+  EXPECT_TRUE(is_proved(partition(regions, csg::complement(ball({}, 9)), box)));
+  const Solid3 within = ball({}, Rational(401, 100));  // a little more than the radius 2
+  const Proof in_part = partition(regions, within, box);
+  EXPECT_EQ(named_in(in_part), (std::vector<std::vector<std::size_t>>{{}}));
+  EXPECT_EQ(classify(within, std::get<Refuted>(in_part).witnesses.front().point), PointClass::In);
+  regions.push_back(ball(point(4, 0, 0), 1));  // overlaps the shell from 3 to 4, and the outside
+  EXPECT_EQ(named_in(partition(regions, csg::complement(ball({}, 9)), box)),
+            (std::vector<std::vector<std::size_t>>{{2, 4}, {3, 4}}));
+}
+
+// LAW region_proof.5: three half-spaces through the origin have points of all eight combinations;
+// in a ball beside them, of those that the geometry leaves.
+TEST(RegionProof, CombinationsAreAllFound) {
+  const Regions sides{below({1, 0, 0}, 0), below({0, 1, 0}, 0), below({0, 0, 1}, 0)};
+  ProofLimits limits;
+  limits.witnesses = 100;
+  const auto combinations = [&](const Solid3& within) {
+    return find_combinations(std::span<const Solid3>(sides), within, cube(4), limits);
+  };
+  EXPECT_EQ(named_in(combinations(ball({}, 1))).size(), 8U);
+  // Crosses the plane z = 0 only, where x < 0 and y > 0.
+  const Proof beside = combinations(ball(point(-2, 2, 0), 1));
+  EXPECT_EQ(named_in(beside), (std::vector<std::vector<std::size_t>>{{0}, {0, 2}}));
+  EXPECT_TRUE(std::get<Refuted>(beside).is_complete);
+  EXPECT_TRUE(is_proved(combinations(Solid3::empty())));
+}
+
 // Three that are pairwise disjoint but for one pair, and one pair more: all are named.
 TEST(RegionProof, EveryPairThatOverlapsIsNamed) {
   const Regions regions{ball({}, 1), ball(point(3, 0, 0), 1), ball(point(1, 0, 0), 1),

@@ -8,6 +8,11 @@
 //   prove_cover(regions, box)      every point of the box is in a region
 //   prove_disjoint(a, b, box)      they do not interfere
 //   prove_contains(a, b, box)      b is a subset of a
+//   prove_partition(regions, within, box)
+//                                  every point of the box that is inside `within` is in exactly one
+//                                  region: prove_disjoint and prove_cover in one
+//   find_combinations(regions, within, box)
+//                                  which sets of regions have points in common inside `within`
 //
 // "Every point" means all but a closed set without interior: sets that touch do not overlap.
 //
@@ -15,12 +20,16 @@
 // LAW region_proof.2  Refuted: each witness is a rational point of the open box, In (an inner
 //                     point) for exactly the regions named, and Out for all others, or On their
 //                     boundaries: at least two are named of prove_disjoint; of prove_cover none,
-//                     and the point is Out for all.
+//                     and the point is Out for all; either of prove_partition. It is In `within`.
 // LAW region_proof.3  Undecided: outside the cells there is no violation, and their volumes sum up
 //                     to `volume`. It is what is left when the volume is negligible or a limit is
 //                     reached.
 // LAW region_proof.4  witnesses name different sets of regions. If `is_complete`, these are all the
-//                     sets that violate the claim.
+//                     sets that violate the claim. If not, others may be found in the cells of
+//                     `rest` only.
+// LAW region_proof.5  find_combinations refutes the claim that there are no points: the witnesses
+//                     name the sets of regions that points inside `within` are in, and are Out of
+//                     the others.
 //
 // Method: the box is divided. In a cell, the regions are pruned, and what is left of them is a
 // truth function of few distinct surfaces: if none of the combinations of their sides violates the
@@ -40,6 +49,7 @@
 #include <memory>
 #include <optional>
 #include <queue>
+#include <set>
 #include <span>
 #include <utility>
 #include <variant>
@@ -57,15 +67,15 @@ struct Witness {
   domain::Point<3> point;
   std::vector<std::size_t> regions;  // that it is In, ascending
 };
-struct Refuted {
-  std::vector<Witness> witnesses;  // at least one
-  bool is_complete = false;        // no other sets of regions violate the claim
-};
-
 struct Undecided {
   Rational volume;
   std::vector<domain::Box<3>> cells;  // the largest first
   StopReason stop = StopReason::Width;
+};
+struct Refuted {
+  std::vector<Witness> witnesses;  // at least one
+  bool is_complete = false;        // no other sets of regions violate the claim
+  Undecided rest;                  // no cells if it is complete
 };
 
 using Proof = std::variant<Proved, Refuted, Undecided>;
@@ -82,17 +92,28 @@ struct ProofLimits {
 
 namespace detail {
 
-enum class Claim : unsigned char { Disjoint, Cover };
+// NoPoint: there is no point at all.
+enum class Claim : unsigned char { Disjoint, Cover, Partition, NoPoint };
+
+// The first's polynomial plus a multiple of the second's is nowhere negative in the box, so that
+// their interiors have no common point there. REQUIRES no nappes, factor > 0.
+inline bool exclude_each_other(const domain::HalfSpace<3>& a, const domain::HalfSpace<3>& b,
+                               const Rational& factor, const Box3& box) {
+  const auto polynomial = [](const domain::HalfSpace<3>& half_space) {
+    return Rational(half_space.is_complement() ? -1 : 1) * half_space.polynomial();
+  };
+  return domain::range(polynomial(a) + factor * polynomial(b), box).minimum >= 0;
+}
 
 template <SpatialDomain P>
 class RegionProver {
  public:
-  RegionProver(std::span<const csg::BooleanTree<P>> regions, const Box3& box, Claim claim,
-               const ProofLimits& limits)
+  RegionProver(std::span<const csg::BooleanTree<P>> regions, const csg::BooleanTree<P>& within,
+               const Box3& box, Claim claim, const ProofLimits& limits)
       : limits_(limits),
         claim_(claim),
         box_(box),
-        locals_of_box_(locals(regions)),
+        locals_of_box_(locals(regions, within)),
         memberships_(table_) {
     if (limits_.progress != nullptr) limits_.progress->begin("prove", limits_.cells);
   }
@@ -119,11 +140,12 @@ class RegionProver {
       examine(parts.first, *cell.locals);
       examine(parts.second, *cell.locals);
     }
-    if (!witnesses_.empty()) return Refuted{std::move(witnesses_), cells_.empty()};
-    if (cells_.empty()) return Proved{};
-    Undecided result{undecided_, {}, stop};
-    for (; !cells_.empty(); cells_.pop()) result.cells.push_back(cells_.top().box);
-    return result;
+    const bool is_complete = cells_.empty();
+    Undecided rest{undecided_, {}, stop};
+    for (; !cells_.empty(); cells_.pop()) rest.cells.push_back(cells_.top().box);
+    if (!witnesses_.empty()) return Refuted{std::move(witnesses_), is_complete, std::move(rest)};
+    if (is_complete) return Proved{};
+    return rest;
   }
 
  private:
@@ -131,7 +153,11 @@ class RegionProver {
     std::size_t region;
     LiteralTree tree;
   };
-  using Locals = std::vector<Local>;
+  // What is left in a cell of `within` and of the regions that are not empty there.
+  struct Locals {
+    LiteralTree within;
+    std::vector<Local> regions;
+  };
   struct Cell {
     Rational volume;
     Box3 box;
@@ -145,17 +171,52 @@ class RegionProver {
   static constexpr std::size_t most_surfaces = 10;
   static constexpr std::size_t most_surfaces_of_pairs = 6;
   static constexpr std::size_t most_violations = 24;
+  static constexpr std::size_t most_mixed_regions = 4;
 
-  Locals locals(std::span<const csg::BooleanTree<P>> regions) {
-    Locals result;
+  Locals locals(std::span<const csg::BooleanTree<P>> regions, const csg::BooleanTree<P>& within) {
+    Locals result{table_.add(within), {}};
     for (const csg::BooleanTree<P>& region : regions) {
-      result.push_back({result.size(), table_.add(region)});
+      result.regions.push_back({result.regions.size(), table_.add(region)});
     }
     return result;
   }
 
   bool is_violation(std::size_t regions) const {
-    return claim_ == Claim::Disjoint ? regions >= 2 : regions == 0;
+    switch (claim_) {
+      case Claim::Disjoint:
+        return regions >= 2;
+      case Claim::Cover:
+        return regions == 0;
+      case Claim::Partition:
+        return regions != 1;
+      case Claim::NoPoint:
+        break;
+    }
+    return true;
+  }
+  bool is_new_violation(const std::vector<std::size_t>& regions) const {
+    return is_violation(regions.size()) && !witnessed_.contains(regions);
+  }
+
+  // Whether points of a cell may violate the claim in a new way, whatever the surfaces do there.
+  bool may_be_violated(const std::vector<Local>& regions) const {
+    std::vector<std::size_t> inside;
+    std::vector<std::size_t> mixed;
+    for (const Local& region : regions) {
+      (region.tree.is_full() ? inside : mixed).push_back(region.region);
+    }
+    if (claim_ == Claim::Cover && !inside.empty()) return false;
+    if (claim_ == Claim::Disjoint && regions.size() < 2) return false;
+    if (mixed.size() > most_mixed_regions) return true;
+    for (std::size_t subset = 0; subset < (std::size_t{1} << mixed.size()); ++subset) {
+      std::vector<std::size_t> tried = inside;
+      for (std::size_t i = 0; i < mixed.size(); ++i) {
+        if ((subset >> i & 1U) != 0) tried.push_back(mixed[i]);
+      }
+      std::sort(tried.begin(), tried.end());
+      if (is_new_violation(tried)) return true;
+    }
+    return false;
   }
 
   void examine(const Box3& box, const Locals& above) {
@@ -163,14 +224,13 @@ class RegionProver {
     if (limits_.progress != nullptr) limits_.progress->advance();
     memberships_.enter(box);
     auto local = std::make_shared<Locals>();
-    std::size_t full = 0;
-    for (const Local& region : above) {
+    local->within = csg::prune(above.within, memberships_);
+    if (local->within.is_empty()) return;
+    for (const Local& region : above.regions) {
       LiteralTree tree = csg::prune(region.tree, memberships_);
-      if (tree.is_empty()) continue;
-      if (tree.is_full()) ++full;
-      local->push_back({region.region, std::move(tree)});
+      if (!tree.is_empty()) local->regions.push_back({region.region, std::move(tree)});
     }
-    if (claim_ == Claim::Disjoint ? local->size() < 2 : full > 0) return;
+    if (!may_be_violated(local->regions)) return;
     // If the cell violates the claim as a whole, its centre does.
     try_point(box.centre(), *local);
     const auto surfaces = surfaces_of_all(*local);
@@ -181,10 +241,12 @@ class RegionProver {
   void keep(const Box3& box, std::shared_ptr<const Locals> local) {
     std::optional<AxisPlane> cut;
     DividingAxis axis(box);
-    for (const Local& region : *local) {
-      if (!cut) cut = axis_cut(table_, region.tree, box);
-      axis.add(table_, region.tree, box);
-    }
+    const auto consider = [&](const LiteralTree& tree) {
+      if (!cut) cut = axis_cut(table_, tree, box);
+      axis.add(table_, tree, box);
+    };
+    consider(local->within);
+    for (const Local& region : local->regions) consider(region.tree);
     Rational volume = volume_of(box);
     undecided_ += volume;
     cells_.push({std::move(volume), box, cut ? *cut : axis.bisector(box), std::move(local)});
@@ -192,13 +254,17 @@ class RegionProver {
 
   std::optional<std::vector<std::uint32_t>> surfaces_of_all(const Locals& local) const {
     std::vector<std::uint32_t> all;
-    for (const Local& region : local) {
-      const auto some = surfaces_of(region.tree, most_surfaces);
-      if (!some) return std::nullopt;
+    const auto add = [&](const LiteralTree& tree) {
+      const auto some = surfaces_of(tree, most_surfaces);
+      if (!some) return false;
       all.insert(all.end(), some->begin(), some->end());
       std::sort(all.begin(), all.end());
       all.erase(std::unique(all.begin(), all.end()), all.end());
-      if (all.size() > most_surfaces) return std::nullopt;
+      return all.size() <= most_surfaces;
+    };
+    if (!add(local.within)) return std::nullopt;
+    for (const Local& region : local.regions) {
+      if (!add(region.tree)) return std::nullopt;
     }
     return all;
   }
@@ -218,24 +284,30 @@ class RegionProver {
   // one.
   std::optional<std::vector<Sides>> violations_of(
       const Locals& local, const std::vector<std::uint32_t>& surfaces) const {
-    std::vector<FlatRegion> regions;
-    for (const Local& region : local) {
-      regions.push_back(csg::flatten(region.tree, [&](const Literal& literal) {
+    const auto flat = [&](const LiteralTree& tree) {
+      return csg::flatten(tree, [&](const Literal& literal) {
         const auto at = std::lower_bound(surfaces.begin(), surfaces.end(), literal.surface);
         return Literal{static_cast<std::uint32_t>(at - surfaces.begin()), literal.is_complemented};
-      }));
-    }
+      });
+    };
+    const FlatRegion within = flat(local.within);
+    std::vector<FlatRegion> regions;
+    for (const Local& region : local.regions) regions.push_back(flat(region.tree));
     std::vector<Sides> violations;
     for (Sides sides = 0; sides < (Sides{1} << surfaces.size()); ++sides) {
+      const auto is_in = [&](const FlatRegion& region) {
+        return csg::membership_of(region, [&](const Literal& literal) {
+                 const bool is_inside = (sides >> literal.surface & 1U) != 0;
+                 return is_inside != literal.is_complemented ? csg::Membership::In
+                                                             : csg::Membership::Out;
+               }) == csg::Membership::In;
+      };
+      if (!is_in(within)) continue;
       std::vector<std::size_t> inside;
       for (std::size_t i = 0; i < regions.size(); ++i) {
-        const csg::Membership value = csg::membership_of(regions[i], [&](const Literal& literal) {
-          const bool is_in = (sides >> literal.surface & 1U) != 0;
-          return is_in != literal.is_complemented ? csg::Membership::In : csg::Membership::Out;
-        });
-        if (value == csg::Membership::In) inside.push_back(local[i].region);
+        if (is_in(regions[i])) inside.push_back(local.regions[i].region);
       }
-      if (!is_violation(inside.size()) || is_witnessed(inside)) continue;
+      if (!is_new_violation(inside)) continue;
       if (violations.size() == most_violations) return std::nullopt;
       violations.push_back(sides);
     }
@@ -302,11 +374,9 @@ class RegionProver {
 
   bool is_nowhere_negative(const PairKey& key, const Rational& factor) const {
     const auto side = [&](std::uint32_t literal) {
-      const domain::HalfSpace<3>& half_space = table_[literal / 2];
-      const bool is_negated = (literal % 2 == 1) == half_space.is_complement();
-      return Rational(is_negated ? -1 : 1) * half_space.polynomial();
+      return literal % 2 == 1 ? table_[literal / 2] : complement(table_[literal / 2]);
     };
-    return domain::range(side(key.first) + factor * side(key.second), box_).minimum >= 0;
+    return exclude_each_other(side(key.first), side(key.second), factor, box_);
   }
 
   static bool is_in_cell(const Position& x) {
@@ -331,25 +401,27 @@ class RegionProver {
     if (is_in_cell(x)) try_point(global(box, x), local);
   }
 
-  bool is_witnessed(const std::vector<std::size_t>& regions) const {
-    return std::any_of(witnesses_.begin(), witnesses_.end(),
-                       [&](const Witness& known) { return known.regions == regions; });
-  }
-
   // Records the point if it is a violation of a new kind.
   // REQUIRES it is in the open cell of the locals.
   void try_point(const domain::Point<3>& point, const Locals& local) {
-    std::vector<std::size_t> inside;
-    for (const Local& region : local) {
-      const csg::Membership value = csg::membership_of(region.tree, [&](const Literal& literal) {
+    const auto membership_at = [&](const LiteralTree& tree) {
+      return csg::membership_of(tree, [&](const Literal& literal) {
         return domain::detail::complement_if(literal.is_complemented,
                                              membership(classify(table_[literal.surface], point)));
       });
+    };
+    if (membership_at(local.within) != csg::Membership::In) return;
+    std::vector<std::size_t> inside;
+    bool is_on_boundary = false;
+    for (const Local& region : local.regions) {
+      const csg::Membership value = membership_at(region.tree);
       if (value == csg::Membership::In) inside.push_back(region.region);
-      if (claim_ == Claim::Cover && value != csg::Membership::Out) return;
+      is_on_boundary = is_on_boundary || value == csg::Membership::Unknown;
     }
-    if (!is_violation(inside.size()) || is_witnessed(inside)) return;
-    if (witnesses_.size() < limits_.witnesses) witnesses_.push_back({point, std::move(inside)});
+    if (is_on_boundary && (inside.empty() || claim_ == Claim::NoPoint)) return;
+    if (!is_new_violation(inside) || witnesses_.size() == limits_.witnesses) return;
+    witnessed_.insert(inside);
+    witnesses_.push_back({point, std::move(inside)});
   }
 
   const ProofLimits& limits_;
@@ -363,6 +435,7 @@ class RegionProver {
   Rational negligible_;
   std::map<PairKey, bool> exclusions_;
   std::vector<Witness> witnesses_;
+  std::set<std::vector<std::size_t>> witnessed_;
   std::uint64_t count_ = 0;
 };
 
@@ -371,7 +444,9 @@ class RegionProver {
 template <SpatialDomain P>
 Proof prove_disjoint(std::span<const csg::BooleanTree<P>> regions, const domain::Box<3>& box,
                      const ProofLimits& limits = {}) {
-  return detail::RegionProver<P>(regions, box, detail::Claim::Disjoint, limits).run();
+  return detail::RegionProver<P>(regions, csg::BooleanTree<P>::full(), box, detail::Claim::Disjoint,
+                                 limits)
+      .run();
 }
 
 template <SpatialDomain P>
@@ -384,7 +459,23 @@ Proof prove_disjoint(const csg::BooleanTree<P>& a, const csg::BooleanTree<P>& b,
 template <SpatialDomain P>
 Proof prove_cover(std::span<const csg::BooleanTree<P>> regions, const domain::Box<3>& box,
                   const ProofLimits& limits = {}) {
-  return detail::RegionProver<P>(regions, box, detail::Claim::Cover, limits).run();
+  return detail::RegionProver<P>(regions, csg::BooleanTree<P>::full(), box, detail::Claim::Cover,
+                                 limits)
+      .run();
+}
+
+template <SpatialDomain P>
+Proof prove_partition(std::span<const csg::BooleanTree<P>> regions,
+                      const csg::BooleanTree<P>& within, const domain::Box<3>& box,
+                      const ProofLimits& limits = {}) {
+  return detail::RegionProver<P>(regions, within, box, detail::Claim::Partition, limits).run();
+}
+
+template <SpatialDomain P>
+Proof find_combinations(std::span<const csg::BooleanTree<P>> regions,
+                        const csg::BooleanTree<P>& within, const domain::Box<3>& box,
+                        const ProofLimits& limits = {}) {
+  return detail::RegionProver<P>(regions, within, box, detail::Claim::NoPoint, limits).run();
 }
 
 // A witness is a point of the interior of b that is Out of a.
