@@ -39,7 +39,7 @@ void show(const domain::Solid3& solid, const Point<3>& from, const Point<3>& to)
   for (std::size_t i = 0; i < found.between.size(); ++i) {
     std::cout << " to ";
     if (i < found.crossings.size()) {
-      print(found.crossings[i].parameter);
+      print(*found.crossings[i].parameter.quadratic());
     } else {
       std::cout << 1;
     }

@@ -97,26 +97,27 @@ void expect_section_separates(const Sample& sample, const LineSection<D>& line) 
       if (i > 1) {
         ASSERT_TRUE(crossings[i - 2].parameter < crossings[i - 1].parameter);
       }
-      const QuadraticNumber& here = crossings[i - 1].parameter;
+      const AlgebraicNumber& here = crossings[i - 1].parameter;
       if (line.begin) {
-        ASSERT_TRUE(QuadraticNumber(*line.begin) < here);
+        ASSERT_TRUE(AlgebraicNumber(*line.begin) < here);
       }
       if (line.end) {
-        ASSERT_TRUE(here < QuadraticNumber(*line.end));
+        ASSERT_TRUE(here < AlgebraicNumber(*line.end));
       }
       // A tree has crossings of its primitives that are not its own.
       const bool is_own = found.between[i - 1] != found.between[i] || requires {
-        sample.set.polynomial();
+        sample.set.is_complement();
       };
-      if (is_own && here.factor() == 0) {
-        ASSERT_EQ(class_at(here.rational_part()), PointClass::On);
+      const QuadraticNumber* quadratic = here.quadratic();
+      if (is_own && quadratic != nullptr && quadratic->factor() == 0) {
+        ASSERT_EQ(class_at(quadratic->rational_part()), PointClass::On);
       }
     }
     const auto low = i > 0        ? std::optional(crossings[i - 1].parameter)
-                     : line.begin ? std::optional(QuadraticNumber(*line.begin))
+                     : line.begin ? std::optional(AlgebraicNumber(*line.begin))
                                   : std::nullopt;
     const auto high = i < crossings.size() ? std::optional(crossings[i].parameter)
-                      : line.end           ? std::optional(QuadraticNumber(*line.end))
+                      : line.end           ? std::optional(AlgebraicNumber(*line.end))
                                            : std::nullopt;
     if (low && high) {
       const Rational middle = rational_between(*low, *high);

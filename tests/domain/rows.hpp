@@ -15,6 +15,7 @@
 #include "exactcsg/domain/classify.hpp"
 #include "exactcsg/domain/curve_region.hpp"
 #include "exactcsg/domain/half_spaces.hpp"
+#include "exactcsg/domain/surface_half_space.hpp"
 
 namespace exactcsg::domain::test {
 
@@ -409,6 +410,111 @@ struct StripTreeRow {
   }
 };
 
+// A torus with a rational frame, of which rational points are known: the ends of rational radii of
+// the circle through its axis, turned round the axis by a rational rotation.
+struct TorusSample : Sample<Torus, 3> {
+  Coordinates<3> centre;
+  std::array<Coordinates<3>, 3> frame;  // orthonormal; the last is the axis
+  Rational major, along, across;
+
+  Coordinates<3> at(const std::array<Rational, 2>& round_tube,
+                    const std::array<Rational, 2>& round_axis) const {
+    const Rational rho = major + across * round_tube[0];
+    Coordinates<3> result = moved(centre, Rational(along * round_tube[1]), frame[2]);
+    result = moved(result, Rational(rho * round_axis[0]), frame[0]);
+    return moved(result, Rational(rho * round_axis[1]), frame[1]);
+  }
+};
+
+// A point of the unit circle.
+inline std::array<Rational, 2> point_of_circle(Random& random) {
+  const Rational t = random.rational();
+  const Rational scale = 1 / (1 + t * t);
+  return {Rational((1 - t * t) * scale), Rational(2 * t * scale)};
+}
+
+// The columns of the rotation by a quaternion.
+inline std::array<Coordinates<3>, 3> rational_frame(int w, int x, int y, int z) {
+  const Rational n = w * w + x * x + y * y + z * z;
+  return {{{Rational((w * w + x * x - y * y - z * z) / n), Rational(2 * (x * y + w * z) / n),
+            Rational(2 * (x * z - w * y) / n)},
+           {Rational(2 * (x * y - w * z) / n), Rational((w * w - x * x + y * y - z * z) / n),
+            Rational(2 * (y * z + w * x) / n)},
+           {Rational(2 * (x * z + w * y) / n), Rational(2 * (y * z - w * x) / n),
+            Rational((w * w - x * x - y * y + z * z) / n)}}};
+}
+
+inline TorusSample sample_of_torus(Random& random, const std::array<Coordinates<3>, 3>& frame) {
+  TorusSample sample{{make_torus({{0, 0, 0}, {0, 0, 1}}, 3, 1, 1), {}, {}}, {}, frame, 0, 0, 0};
+  sample.centre = random.coordinates<3>();
+  sample.major = random.positive();
+  sample.along = random.positive();
+  sample.across = random.one_in(4) ? sample.major : random.positive();  // a horn torus
+  Coordinates<3> direction{};
+  direction = moved(direction, random.positive(), frame[2]);
+  sample.set =
+      make_torus({Point<3>(sample.centre), direction}, sample.major, sample.along, sample.across);
+  const auto [centre, axis, a, b, c] =
+      std::tuple(sample.centre, frame[2], sample.major, sample.along, sample.across);
+  // (rho - a)^2 / c^2 + z^2 / b^2 <= 1 without roots: h <= 2 a rho.
+  sample.value = [centre = centre, axis = axis, a = a, b = b, c = c](const Coordinates<3>& x) {
+    const Rational z = scalar_product(difference(x, centre), axis);
+    const Rational rho_squared = squared(difference(x, centre)) - z * z;
+    const Rational h = rho_squared + a * a - c * c * (1 - z * z / (b * b));
+    const Rational right = 4 * a * a * rho_squared;
+    return h < 0 ? Rational(-right - h * h) : Rational(h * h - right);
+  };
+  sample.boundary_point = sample.at({1, 0}, point_of_circle(random));
+  return sample;
+}
+
+struct TorusRow {
+  static constexpr const char* name = "torus";
+  static constexpr std::size_t dimension = 3;
+  static constexpr bool is_exact_for_boxes = true;
+  static TorusSample sample(Random& random) {
+    const auto axis = static_cast<std::size_t>(random.integer(0, 2));
+    std::array<Coordinates<3>, 3> frame;
+    for (std::size_t i = 0; i < 3; ++i) frame[i][(axis + 1 + i) % 3] = 1;
+    return sample_of_torus(random, frame);
+  }
+  static Coordinates<3> degenerate_point(const TorusSample& sample, Random& random) {
+    std::array<Rational, 2> round_tube = point_of_circle(random);
+    if (sample.across > sample.major) round_tube[0] = abs(round_tube[0]);  // not of the lemon
+    return sample.at(round_tube, point_of_circle(random));
+  }
+};
+
+// Boxes are not decided exactly if nothing is parallel.
+struct TiltedTorusRow : TorusRow {
+  static constexpr const char* name = "tilted torus";
+  static constexpr bool is_exact_for_boxes = false;
+  static TorusSample sample(Random& random) {
+    const auto number = [&] { return static_cast<int>(random.integer(1, 3)); };
+    return sample_of_torus(random, rational_frame(number(), number(), number(), number()));
+  }
+};
+
+// The same as one of the kinds of surfaces that trees of both have.
+struct SurfaceRow : TorusRow {
+  static constexpr const char* name = "half-space of a surface";
+  struct Either : Sample<SurfaceHalfSpace, 3> {
+    std::function<Coordinates<3>(Random&)> degenerate_point;
+  };
+  template <class Row>
+  static Either sample_of(Random& random) {
+    const auto s = Row::sample(random);
+    const auto point = [s](Random& r) { return Row::degenerate_point(s, r); };
+    return {{s.set, s.value, s.boundary_point}, point};
+  }
+  static Either sample(Random& random) {
+    return random.one_in(2) ? sample_of<TorusRow>(random) : sample_of<SphereRow>(random);
+  }
+  static Coordinates<3> degenerate_point(const Either& sample, Random& random) {
+    return sample.degenerate_point(random);
+  }
+};
+
 // One row for each domain.
 using Rows = std::tuple<LineRow,             //
                         DiscRow,             //
@@ -423,6 +529,9 @@ using Rows = std::tuple<LineRow,             //
                         BoundedCylinderRow,  //
                         BoundedConeRow,      //
                         WedgeRow,            //
+                        TorusRow,            //
+                        TiltedTorusRow,      //
+                        SurfaceRow,          //
                         StripTreeRow>;
 
 }  // namespace exactcsg::domain::test

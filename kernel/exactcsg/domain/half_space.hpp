@@ -35,6 +35,7 @@
 
 #include "exactcsg/domain/point_class.hpp"
 #include "exactcsg/domain/quadric.hpp"
+#include "exactcsg/number/algebraic_number.hpp"
 #include "exactcsg/number/point.hpp"
 
 namespace exactcsg::domain {
@@ -43,7 +44,7 @@ namespace exactcsg::domain {
 // crosses, 2 where it touches (or passes through the apex of a cone); 0 at the apex of a line that
 // lies in the cone's surface.
 struct Crossing {
-  QuadraticNumber parameter;
+  AlgebraicNumber parameter;
   int multiplicity = 1;
 };
 
@@ -123,17 +124,37 @@ constexpr PointClass class_of(Sign f, Sign g) {
   return g == Sign::Positive ? PointClass::Out : class_of(f);
 }
 
+// A box as filters see it: every point of it is within extent of the middle.
+template <std::size_t D>
+struct ApproximateBox {
+  std::array<CertifiedDouble, D> middle;
+  std::array<double, D> extent{};
+
+  explicit ApproximateBox(const Box<D>& box) {
+    for (std::size_t i = 0; i < D; ++i) {
+      const CertifiedDouble low = box.lower().approximate()[i];
+      const CertifiedDouble high = box.upper().approximate()[i];
+      const double m = low.value / 2 + high.value / 2;
+      middle[i] = {m, 0};
+      extent[i] = std::max(high.value + high.error - m, m - low.value + low.error) * (1 + 0x1p-50) +
+                  0x1p-1000;
+    }
+  }
+};
+
+constexpr Sign certain_sign(const CertifiedDouble& value) {
+  return value.value > value.error    ? Sign::Positive
+         : -value.value > value.error ? Sign::Negative
+                                      : Sign::Zero;
+}
+
 // In or Out if the doubles are certain for the whole box; Unknown if they are not.
 template <std::size_t D>
-csg::Membership filtered_class(const HalfSpace<D>& half_space,
-                               const std::array<CertifiedDouble, D>& middle,
-                               const std::array<double, D>& extent) {
+csg::Membership filtered_class(const HalfSpace<D>& half_space, const Box<D>& box) {
+  const ApproximateBox<D> region(box);
   const auto sign_in_box = [&](const Quadric<D>& f) {
-    const CertifiedDouble value = f.approximate(middle);
-    const double reach = value.error + f.variation(middle, extent);
-    return value.value > reach    ? Sign::Positive
-           : -value.value > reach ? Sign::Negative
-                                  : Sign::Zero;
+    const CertifiedDouble value = f.approximate(region.middle);
+    return certain_sign({value.value, value.error + f.variation(region.middle, region.extent)});
   };
   const Sign f = sign_in_box(half_space.polynomial());
   const Sign g = half_space.nappe() ? sign_in_box(*half_space.nappe()) : Sign::Negative;
@@ -142,29 +163,9 @@ csg::Membership filtered_class(const HalfSpace<D>& half_space,
                                                     : csg::Membership::Unknown;
 }
 
-template <std::size_t D>
-csg::Membership filtered_class(const HalfSpace<D>& half_space, const Box<D>& box) {
-  std::array<CertifiedDouble, D> middle;
-  std::array<double, D> extent{};
-  for (std::size_t i = 0; i < D; ++i) {
-    const CertifiedDouble low = box.lower().approximate()[i];
-    const CertifiedDouble high = box.upper().approximate()[i];
-    const double m = low.value / 2 + high.value / 2;
-    middle[i] = {m, 0};
-    extent[i] = std::max(high.value + high.error - m, m - low.value + low.error) * (1 + 0x1p-50) +
-                0x1p-1000;
-  }
-  return filtered_class(half_space, middle, extent);
-}
-
-// True if the doubles are certain that one corner is inside and another outside.
-template <std::size_t D>
-bool has_certainly_mixed_corners(const HalfSpace<D>& half_space, const Box<D>& box) {
-  const auto certain_sign = [](const CertifiedDouble& value) {
-    return value.value > value.error    ? Sign::Positive
-           : -value.value > value.error ? Sign::Negative
-                                        : Sign::Zero;
-  };
+// True if one corner is certainly inside and another outside: class_at(corner) -> Membership.
+template <std::size_t D, class ClassAt>
+bool has_mixed_corners(const Box<D>& box, ClassAt&& class_at) {
   bool has_inside = false;
   bool has_outside = false;
   for (std::size_t upper = 0; upper < (std::size_t{1} << D); ++upper) {
@@ -172,14 +173,24 @@ bool has_certainly_mixed_corners(const HalfSpace<D>& half_space, const Box<D>& b
     for (std::size_t i = 0; i < D; ++i) {
       corner[i] = ((upper >> i & 1U) != 0 ? box.upper() : box.lower()).approximate()[i];
     }
-    const Sign f = certain_sign(half_space.polynomial().approximate(corner));
-    const Sign g =
-        half_space.nappe() ? certain_sign(half_space.nappe()->approximate(corner)) : Sign::Negative;
-    has_inside = has_inside || (f == Sign::Negative && g == Sign::Negative);
-    has_outside = has_outside || f == Sign::Positive || g == Sign::Positive;
+    const csg::Membership at = class_at(corner);
+    has_inside = has_inside || at == csg::Membership::In;
+    has_outside = has_outside || at == csg::Membership::Out;
     if (has_inside && has_outside) return true;
   }
   return false;
+}
+
+template <std::size_t D>
+bool has_certainly_mixed_corners(const HalfSpace<D>& half_space, const Box<D>& box) {
+  return has_mixed_corners(box, [&](const std::array<CertifiedDouble, D>& corner) {
+    const Sign f = certain_sign(half_space.polynomial().approximate(corner));
+    const Sign g =
+        half_space.nappe() ? certain_sign(half_space.nappe()->approximate(corner)) : Sign::Negative;
+    if (f == Sign::Positive || g == Sign::Positive) return csg::Membership::Out;
+    return f == Sign::Negative && g == Sign::Negative ? csg::Membership::In
+                                                      : csg::Membership::Unknown;
+  });
 }
 
 // Without the complement.
@@ -227,9 +238,9 @@ namespace detail {
 inline Rational parameter_between(const std::vector<Crossing>& crossings, std::size_t i,
                                   const std::optional<Rational>& begin,
                                   const std::optional<Rational>& end) {
-  using Bound = std::optional<QuadraticNumber>;
+  using Bound = std::optional<AlgebraicNumber>;
   const auto bound = [](const std::optional<Rational>& value) {
-    return value ? Bound(QuadraticNumber(*value)) : Bound();
+    return value ? Bound(AlgebraicNumber(*value)) : Bound();
   };
   const Bound low = i > 0 ? Bound(crossings[i - 1].parameter) : bound(begin);
   const Bound high = i < crossings.size() ? Bound(crossings[i].parameter) : bound(end);
@@ -289,14 +300,14 @@ inline void clip(Section& section, const std::optional<Rational>& begin,
                  const std::optional<Rational>& end) {
   auto& [crossings, between] = section;
   if (end) {
-    const QuadraticNumber bound(*end);
+    const AlgebraicNumber bound(*end);
     while (!crossings.empty() && crossings.back().parameter >= bound) {
       crossings.pop_back();
       between.pop_back();
     }
   }
   if (begin) {
-    const QuadraticNumber bound(*begin);
+    const AlgebraicNumber bound(*begin);
     while (!crossings.empty() && crossings.front().parameter <= bound) {
       crossings.erase(crossings.begin());
       between.erase(between.begin());
@@ -313,7 +324,7 @@ Section section(const HalfSpace<D>& half_space, const LineSection<D>& line) {
   if (!builder.f.is_zero()) {
     builder.add_crossings();
   } else if (const auto apex = detail::apex_on(half_space.polynomial(), line)) {
-    builder.section.crossings.push_back({QuadraticNumber(*apex), 0});
+    builder.section.crossings.push_back({*apex, 0});
   }
   builder.add_classes();
   detail::clip(builder.section, line.begin, line.end);

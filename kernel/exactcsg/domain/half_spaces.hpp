@@ -9,3 +9,4 @@
 #include "exactcsg/domain/ellipsoid.hpp"
 #include "exactcsg/domain/line.hpp"
 #include "exactcsg/domain/plane.hpp"
+#include "exactcsg/domain/torus.hpp"

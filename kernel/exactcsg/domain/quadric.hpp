@@ -132,6 +132,17 @@ class Quadric {
     return result;
   }
 
+  // The derivative along an axis. [Certified]
+  CertifiedDouble approximate_slope(std::size_t axis,
+                                    const std::array<CertifiedDouble, D>& x) const {
+    CertifiedDouble slope = approximate_linear_[axis];
+    for (std::size_t j = 0; j < D && !is_linear_; ++j) {
+      const CertifiedDouble& coefficient = approximate_square_[axis][j];
+      if (!is_exactly_zero(coefficient)) slope = slope + CertifiedDouble{2, 0} * coefficient * x[j];
+    }
+    return slope;
+  }
+
   // v' A v, half the second derivative along v.
   Rational half_curvature(const Coordinates<D>& v) const {
     Rational value;
@@ -141,20 +152,27 @@ class Quadric {
     return value;
   }
 
+  // An upper bound of |h' A h| for all |h_i| <= extent_i. [Certified]
+  double curvature(const std::array<double, D>& extent) const {
+    double bound = 0;
+    for (std::size_t i = 0; i < D && !is_linear_; ++i) {
+      for (std::size_t j = 0; j < D; ++j) {
+        bound += magnitude(approximate_square_[i][j]) * extent[i] * extent[j];
+      }
+    }
+    return bound * (1 + 0x1p-40);
+  }
+
   // An upper bound of |f(m + h) - f(m)| for all |h_i| <= extent_i. [Certified]
   double variation(const std::array<CertifiedDouble, D>& m,
                    const std::array<double, D>& extent) const {
     double bound = 0;
     for (std::size_t i = 0; i < D; ++i) {
-      CertifiedDouble slope = approximate_linear_[i];
-      double curvature = 0;
+      double slope = magnitude(approximate_slope(i, m));
       for (std::size_t j = 0; j < D && !is_linear_; ++j) {
-        const CertifiedDouble& coefficient = approximate_square_[i][j];
-        if (is_exactly_zero(coefficient)) continue;
-        slope = slope + CertifiedDouble{2, 0} * coefficient * m[j];
-        curvature += magnitude(coefficient) * extent[j];
+        slope += magnitude(approximate_square_[i][j]) * extent[j];
       }
-      bound += (magnitude(slope) + curvature) * extent[i];
+      bound += slope * extent[i];
     }
     return bound * (1 + 0x1p-40);
   }

@@ -5,21 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "exactcsg/number/certified_root.hpp"
+
 namespace exactcsg {
 
 namespace {
-
-// The root of the lower bound to the root of the upper one, each off by at most a unit in the last
-// place. [Certified]
-CertifiedDouble square_root(CertifiedDouble x) {
-  if (!(x.value > 0) || !(x.error < x.value)) {
-    const double bound = std::sqrt(std::abs(x.value) + x.error) * (1 + 0x1p-50);
-    return {0, bound};
-  }
-  const double root = std::sqrt(x.value);
-  // |sqrt(v + e) - sqrt(v)| <= |e| / sqrt(v) for |e| <= v
-  return {root, (x.error / root) * (1 + 0x1p-50) + 0x1p-52 * root + 0x1p-1000};
-}
 
 CertifiedDouble approximation(const Rational& a, const Rational& b, const Rational& c) {
   if (b == 0) return certified_double_of(a);
