@@ -17,8 +17,7 @@
 // LAW classify.4  apply(m, tree) has at m(x) the class that tree has at x.
 // THROWS Error(UndecidedNeighbourhood) for a point (or a line) where surfaces touch in a way that
 // neighbourhood.hpp does not decide and on which the answer depends; never on lines and discs, nor
-// on planes. Of primitives that are not HalfSpace<2> or HalfSpace<3>, where several boundaries
-// meet.
+// on planes. Of primitives that are no half-spaces of the library, where several boundaries meet.
 //
 // REQUIRES for lines: no primitive is a doubly ruled surface.
 //
@@ -40,42 +39,100 @@
 #include "exactcsg/csg/walk.hpp"
 #include "exactcsg/domain/half_space.hpp"
 #include "exactcsg/domain/neighbourhood.hpp"
+#include "exactcsg/domain/surface_half_space.hpp"
+#include "exactcsg/domain/vector.hpp"
 
 namespace exactcsg::domain {
 
 namespace detail {
 
-// Of one primitive in the cell that the germ names. REQUIRES the point is On it
+// The surfaces that pass through a point, each once, as germs see them.
 template <std::size_t D>
-csg::Membership membership_at(const HalfSpace<D>& half_space, const Point<D>& point,
-                              const Germ<D>& germ) {
-  const auto sign_along = [&](const Quadric<D>& f) {
-    return germ.sign(f, f.gradient(point.coordinates()));
-  };
-  Sign f = sign_along(half_space.polynomial());
-  if (f == Sign::Zero) return csg::Membership::Unknown;
-  if (f == Sign::Negative && half_space.nappe() && half_space.nappe()->sign(point) == Sign::Zero) {
-    f = sign_along(*half_space.nappe());
+class SurfacesAt {
+ public:
+  explicit SurfacesAt(const Point<D>& point) : point_(point) {}
+
+  void add(const HalfSpace<D>& half_space) { quadrics_.push_back(&half_space.polynomial()); }
+  void add(const Torus& torus) requires(D == 3) {
+    if (find(torus) == nullptr) tori_.push_back({&torus, second_order(torus, point_)});
   }
-  return membership(complement_if(half_space.is_complement(), class_of(f)));
-}
+  void add(const SurfaceHalfSpace& half_space) requires(D == 3) {
+    half_space.visit([this](const auto& kind) { add(kind); });
+  }
+
+  std::vector<GermSurface<D>> all() {
+    std::sort(quadrics_.begin(), quadrics_.end());
+    quadrics_.erase(std::unique(quadrics_.begin(), quadrics_.end()), quadrics_.end());
+    std::vector<GermSurface<D>> result;
+    for (const Quadric<D>* f : quadrics_) result.push_back({f, nullptr});
+    for (const TorusAt& torus : tori_) result.push_back({&torus.polynomial, torus.torus});
+    return result;
+  }
+
+  // Of one primitive in the cell that the germ names.
+  csg::Membership membership(const HalfSpace<D>& half_space, const Germ<D>& germ) const {
+    Sign f = sign_along(half_space.polynomial(), germ);
+    if (f == Sign::Zero) return csg::Membership::Unknown;
+    if (f == Sign::Negative && half_space.nappe() &&
+        half_space.nappe()->sign(point_) == Sign::Zero) {
+      f = sign_along(*half_space.nappe(), germ);
+    }
+    return exactcsg::membership(complement_if(half_space.is_complement(), class_of(f)));
+  }
+  csg::Membership membership(const Torus& torus, const Germ<D>& germ) const requires(D == 3) {
+    Sign f = sign_along(*find(torus), germ);
+    if (torus.base().sign(point_) == Sign::Zero &&
+        scalar_product(torus.base().gradient(point_.coordinates()), germ.direction) < 0) {
+      f = Sign::Negative;  // at a tip, inwards
+    }
+    if (f == Sign::Zero) return csg::Membership::Unknown;
+    return exactcsg::membership(complement_if(torus.is_complement(), class_of(f)));
+  }
+  csg::Membership membership(const SurfaceHalfSpace& half_space, const Germ<D>& germ) const
+      requires(D == 3) {
+    return half_space.visit([&](const auto& kind) { return membership(kind, germ); });
+  }
+
+ private:
+  struct TorusAt {
+    const Torus* torus;
+    Quadric<D> polynomial;
+  };
+  Sign sign_along(const Quadric<D>& f, const Germ<D>& germ) const {
+    return germ.sign(f, f.gradient(point_.coordinates()));
+  }
+  const Quadric<D>* find(const Torus& torus) const {
+    for (const TorusAt& known : tori_) {
+      if (known.torus->has_surface_of(torus)) return &known.polynomial;
+    }
+    return nullptr;
+  }
+
+  const Point<D>& point_;
+  std::vector<const Quadric<D>*> quadrics_;
+  std::vector<TorusAt> tori_;
+};
+
+// Primitives whose neighbourhoods are known.
+template <class P>
+concept HasGerms = (P::dimension == 2 || P::dimension == 3) &&
+                   requires(SurfacesAt<P::dimension>& surfaces, const P& primitive) {
+  surfaces.add(primitive);
+};
 
 // REQUIRES every primitive of the tree is On at the point
-template <std::size_t D>
-requires(D == 2 || D == 3) PointClass
-    classify_neighbourhood(const csg::BooleanTree<HalfSpace<D>>& tree, const Point<D>& point) {
-  std::vector<const Quadric<D>*> surfaces;
-  csg::for_each_primitive(
-      tree, [&](const HalfSpace<D>& half_space) { surfaces.push_back(&half_space.polynomial()); });
-  std::sort(surfaces.begin(), surfaces.end());
-  surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
-  auto [germs, complete] = germs_at(point, std::span<const Quadric<D>* const>(surfaces));
+template <HasGerms P>
+PointClass classify_neighbourhood(const csg::BooleanTree<P>& tree,
+                                  const Point<P::dimension>& point) {
+  SurfacesAt<P::dimension> surfaces(point);
+  csg::for_each_primitive(tree, [&](const P& primitive) { surfaces.add(primitive); });
+  const std::vector<GermSurface<P::dimension>> all = surfaces.all();
+  auto [germs, complete] = germs_at(point, std::span<const GermSurface<P::dimension>>(all));
   bool has_in = false;
   bool has_out = false;
-  for (const Germ<D>& germ : germs) {
-    const csg::Membership value = csg::membership_of(tree, [&](const HalfSpace<D>& half_space) {
-      return membership_at(half_space, point, germ);
-    });
+  for (const Germ<P::dimension>& germ : germs) {
+    const csg::Membership value = csg::membership_of(
+        tree, [&](const P& primitive) { return surfaces.membership(primitive, germ); });
     complete = complete && value != csg::Membership::Unknown;
     has_in = has_in || value == csg::Membership::In;
     has_out = has_out || value == csg::Membership::Out;
@@ -83,7 +140,7 @@ requires(D == 2 || D == 3) PointClass
   }
   if (complete) return has_in ? PointClass::In : PointClass::Out;
   throw Error(ErrorId::UndecidedNeighbourhood,
-              {std::to_string(surfaces.size()) + " surfaces that touch", ""});
+              {std::to_string(all.size()) + " surfaces that touch", ""});
 }
 
 }  // namespace detail
@@ -96,7 +153,7 @@ PointClass classify(const csg::BooleanTree<P>& tree, const Point<P::dimension>& 
     const auto local = csg::prune(tree, solve);
     if (local.primitive_count() == 1) return PointClass::On;  // it, or its complement
     if (!local.is_empty() && !local.is_full()) {
-      if constexpr (requires { detail::classify_neighbourhood(local, point); }) {
+      if constexpr (detail::HasGerms<P>) {
         return detail::classify_neighbourhood(local, point);
       } else {
         throw Error(ErrorId::UndecidedNeighbourhood, {"several boundaries in one point", ""});
@@ -152,10 +209,9 @@ inline Section simplified(const Section& section) {
   return result;
 }
 
-template <std::size_t D>
-csg::BooleanTree<HalfSpace<D>> apply(const AffineMap& map,
-                                     const csg::BooleanTree<HalfSpace<D>>& tree) {
-  return csg::map(tree, [&](const HalfSpace<D>& half_space) { return apply(map, half_space); });
+template <Domain P>
+csg::BooleanTree<P> apply(const AffineMap& map, const csg::BooleanTree<P>& tree) {
+  return csg::map(tree, [&](const P& primitive) { return apply(map, primitive); });
 }
 
 }  // namespace exactcsg::domain

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include "exactcsg/domain/torus_frame.hpp"
+#include "exactcsg/domain/vector.hpp"
+
 namespace exactcsg::domain {
 
 namespace {
@@ -11,38 +14,12 @@ namespace {
 using Vector2 = Coordinates<2>;
 using Vector = Coordinates<3>;
 
-template <std::size_t D>
-Rational scalar_product(const Coordinates<D>& u, const Coordinates<D>& v) {
-  Rational sum;
-  for (std::size_t i = 0; i < D; ++i) sum += u[i] * v[i];
-  return sum;
-}
-template <std::size_t D>
-Coordinates<D> scaled(const Rational& factor, const Coordinates<D>& v) {
-  Coordinates<D> result;
-  for (std::size_t i = 0; i < D; ++i) result[i] = factor * v[i];
-  return result;
-}
-template <std::size_t D>
-Coordinates<D> sum(const Coordinates<D>& u, const Coordinates<D>& v) {
-  Coordinates<D> result;
-  for (std::size_t i = 0; i < D; ++i) result[i] = u[i] + v[i];
-  return result;
-}
-template <std::size_t D>
-bool is_zero(const Coordinates<D>& v) {
-  return v == Coordinates<D>{};
-}
+using detail::is_zero;
+using detail::scalar_product;
+using detail::scaled;
+using detail::sum;
+using detail::vector_product;
 
-Vector vector_product(const Vector& u, const Vector& v) {
-  Vector result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    result[i] = u[j] * v[k] - u[k] * v[j];
-  }
-  return result;
-}
 bool parallel(const Vector& u, const Vector& v) { return is_zero(vector_product(u, v)); }
 bool parallel(const Vector2& u, const Vector2& v) { return u[0] * v[1] == u[1] * v[0]; }
 
@@ -53,10 +30,12 @@ Vector2 turned(const Vector2& v) { return {-v[1], v[0]}; }
 template <std::size_t D>
 struct Surface {
   const Quadric<D>* f;
+  const Torus* torus;
   Coordinates<D> gradient;
 
   // REQUIRES parallel gradients
   bool is_same_set(const Surface& other) const {
+    if (torus != nullptr || other.torus != nullptr) return torus == other.torus;
     const Rational here = scalar_product(gradient, gradient);
     const Rational there = scalar_product(gradient, other.gradient);
     return there * *f == here * *other.f;
@@ -65,9 +44,12 @@ struct Surface {
 
 template <std::size_t D>
 std::vector<Surface<D>> with_gradients(const Point<D>& point,
-                                       std::span<const Quadric<D>* const> surfaces) {
+                                       std::span<const GermSurface<D>> surfaces) {
   std::vector<Surface<D>> result;
-  for (const Quadric<D>* f : surfaces) result.push_back({f, f->gradient(point.coordinates())});
+  for (const GermSurface<D>& surface : surfaces) {
+    result.push_back(
+        {surface.polynomial, surface.torus, surface.polynomial->gradient(point.coordinates())});
+  }
   return result;
 }
 
@@ -127,9 +109,10 @@ std::vector<Coordinates<D>> conjugate_directions(const Quadric<D>& f) {
 
 // REQUIRES both are singular at the point, so that they consist of terms of degree two there.
 template <std::size_t D>
-bool proportional(const Quadric<D>& f, const Quadric<D>& g) {
-  for (const Coordinates<D>& v : conjugate_directions(f)) {
-    return g.half_curvature(v) * f == f.half_curvature(v) * g;
+bool is_same_cone(const Surface<D>& a, const Surface<D>& b) {
+  if (a.torus != nullptr || b.torus != nullptr) return a.torus == b.torus;
+  for (const Coordinates<D>& v : conjugate_directions(*a.f)) {
+    return b.f->half_curvature(v) * *a.f == a.f->half_curvature(v) * *b.f;
   }
   return false;
 }
@@ -149,7 +132,8 @@ void add_directions(Germs<D>& result) {
 }
 
 // Germs that show the cells of each singular surface alone. They are all cells if there is but one
-// surface, since its own cells are the inside of either nappe and the outside.
+// surface, since its own cells are the inside of either nappe and the outside; but not at the
+// centre of a horn torus, outside of which no direction leads.
 template <std::size_t D>
 void add_singular(const std::vector<Surface<D>>& singular, bool alone, Germs<D>& result) {
   for (const Surface<D>& surface : singular) {
@@ -157,7 +141,8 @@ void add_singular(const std::vector<Surface<D>>& singular, bool alone, Germs<D>&
       result.germs.push_back({direction, {}, false});
       result.germs.push_back({scaled(Rational(-1), direction), {}, false});
     }
-    alone = alone && proportional(*surface.f, *singular.front().f);
+    alone = alone && is_same_cone(surface, singular.front()) &&
+            (surface.torus == nullptr || surface.torus->squared_ratio() != 1);
   }
   if (singular.empty() || alone) return;
   result.complete = false;
@@ -182,7 +167,7 @@ void remove_duplicates(std::vector<Surface<D>>& surfaces) {
 // cells of the others are added to the result.
 template <std::size_t D>
 std::vector<Surface<D>> regular_surfaces(const Point<D>& point,
-                                         std::span<const Quadric<D>* const> surfaces,
+                                         std::span<const GermSurface<D>> surfaces,
                                          Germs<D>& result) {
   std::vector<Surface<D>> regular = with_gradients(point, surfaces);
   const auto singular = take_singular(regular);
@@ -255,7 +240,7 @@ void add_curved_germs(const std::vector<Surface<2>>& curves, const Vector2& dire
 
 }  // namespace
 
-Germs<2> germs_at(const Point<2>& point, std::span<const Quadric<2>* const> surfaces) {
+Germs<2> germs_at(const Point<2>& point, std::span<const GermSurface<2>> surfaces) {
   Germs<2> result;
   const std::vector<Surface<2>> curves = regular_surfaces(point, surfaces, result);
   std::vector<Vector2> normals;
@@ -270,8 +255,23 @@ Germs<2> germs_at(const Point<2>& point, std::span<const Quadric<2>* const> surf
 
 namespace {
 
-bool contains_line(const Quadric<3>& f, const Point<3>& point, const Vector& direction) {
-  return restrict(f, LineSection<3>{point.coordinates(), direction, {}, {}}).is_zero();
+// No torus does.
+bool contains_line(const Surface<3>& surface, const Point<3>& point, const Vector& direction) {
+  return surface.torus ==
+         nullptr&& restrict(*surface.f, LineSection<3>{point.coordinates(), direction, {}, {}})
+             .is_zero();
+}
+
+// Whether one is a torus and the others are surfaces of revolution round its axis.
+// REQUIRES none is singular at the point: then the point is not on the axis.
+bool share_circle(std::span<const Surface<3>* const> surfaces) {
+  const auto torus = std::find_if(surfaces.begin(), surfaces.end(),
+                                  [](const Surface<3>* s) { return s->torus != nullptr; });
+  if (torus == surfaces.end()) return false;
+  const TorusFrame frame(*(*torus)->torus);
+  return std::all_of(surfaces.begin(), surfaces.end(), [&](const Surface<3>* s) {
+    return s->torus != nullptr ? is_coaxial(frame, *s->torus) : is_coaxial(frame, *s->f);
+  });
 }
 
 // Two vectors that span the plane across the direction.
@@ -292,14 +292,19 @@ void add_germs_round(const Point<3>& point, const std::vector<Surface<3>>& plane
                      const Vector& direction, Germs<3>& result) {
   const auto [first, second] = plane_across(direction);
   std::vector<Vector2> normals;
-  bool all_contain_line = true;
+  std::vector<const Surface<3>*> tangent;
   for (const Surface<3>& surface : planes) {
     if (scalar_product(surface.gradient, direction) != 0) continue;
     normals.push_back(
         {scalar_product(surface.gradient, first), scalar_product(surface.gradient, second)});
-    all_contain_line = all_contain_line && contains_line(*surface.f, point, direction);
+    tangent.push_back(&surface);
   }
-  if (normals.size() > 2 && !all_contain_line) result.complete = false;
+  const auto share_line = [&] {
+    return std::all_of(tangent.begin(), tangent.end(), [&](const Surface<3>* surface) {
+      return contains_line(*surface, point, direction);
+    });
+  };
+  if (tangent.size() > 2 && !share_line() && !share_circle(tangent)) result.complete = false;
   for (const Vector2& between : directions_between(directions_of_lines(normals))) {
     result.germs.push_back(
         {direction, sum(scaled(between[0], first), scaled(between[1], second)), false});
@@ -330,12 +335,13 @@ void add_tangent_cells(const Point<3>& point, const std::vector<Surface<3>>& pla
   }
 }
 
-// Whether the surfaces have one tangent plane all along the line. The vector product of their
-// gradients is of degree two along it, so that three zeros prove it to be zero.
+// Whether the surfaces have one tangent plane all along the line, or along a circle. The vector
+// product of their gradients is of degree two along a line, so that three zeros prove it to be
+// zero; a rotation takes them along the circle.
 bool touch_along(const Point<3>& point, const Surface<3>& a, const Surface<3>& b,
                  const Vector& direction) {
-  if (!contains_line(*a.f, point, direction) || !contains_line(*b.f, point, direction))
-    return false;
+  if (share_circle(std::array{&a, &b})) return true;
+  if (!contains_line(a, point, direction) || !contains_line(b, point, direction)) return false;
   const LineSection<3> line{point.coordinates(), direction, {}, {}};
   for (const int t : {1, 2}) {
     const Coordinates<3> at = line.at(t).coordinates();
@@ -383,7 +389,16 @@ void add_cells_between(const Point<3>& point, const Surface<3>& a, const Surface
 
 }  // namespace
 
-Germs<3> germs_at(const Point<3>& point, std::span<const Quadric<3>* const> surfaces) {
+Quadric<3> second_order(const Torus& torus, const Point<3>& point) {
+  // base = b + l + q, of degrees 0, 1 and 2 about the point: base^2 is b^2 + 2 b (l + q) + l^2.
+  const Rational b = torus.base()(point.coordinates());
+  LinearForm<3> l{torus.base().gradient(point.coordinates()), 0};
+  l.constant = -l(point.coordinates());
+  return Rational(2 * b) * torus.base() + product(l, l) + Rational(-1) * torus.radicand() +
+         Quadric<3>(LinearForm<3>{{}, Rational(-b * b)});
+}
+
+Germs<3> germs_at(const Point<3>& point, std::span<const GermSurface<3>> surfaces) {
   Germs<3> result;
   const std::vector<Surface<3>> different = regular_surfaces(point, surfaces, result);
   if (different.empty()) return result;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// The neighbourhood of a point where several lines, circles or surfaces of degree two meet: what
-// distinguishes In, On and Out there. [Exact]
+// The neighbourhood of a point where several lines, circles, surfaces of degree two or tori meet:
+// what distinguishes In, On and Out there. [Exact]
 //
 // Round the point, the surfaces cut a small ball into cells. A cell is named by a germ, a curve
 // that leaves the point into it: p + e d + e^(3/2) u for small e > 0, or p + e d + e^2 u where
@@ -15,9 +15,11 @@
 //
 // Lines and circles in the plane are always complete: two that touch differ in curvature. In space,
 // complete are: any number of planes; surfaces whose tangent planes are different, three of which
-// share a line only if the surfaces do; and two surfaces that touch, if the difference of their
-// curvatures is definite or indefinite, or they touch along a line; the apex of one cone. Not: the
-// apex of a cone on another surface; conics that osculate.
+// share a tangent only if the surfaces share a line, or a circle round the axis of a torus among
+// them; and two surfaces that touch, if the difference of their curvatures is definite or
+// indefinite, or they touch along a line or such a circle; the apex of one cone, the tip of one
+// spindle torus. Not: apices and tips on another surface; the centre of a horn torus; surfaces that
+// osculate.
 //
 // Source: Tilove, Requicha and Voelcker (neighbourhoods); Davy and Dew, section 3.2, leave it out.
 
@@ -25,7 +27,7 @@
 #include <span>
 #include <vector>
 
-#include "exactcsg/domain/quadric.hpp"
+#include "exactcsg/domain/torus.hpp"
 
 namespace exactcsg::domain {
 
@@ -56,8 +58,20 @@ struct Germs {
   bool complete = true;
 };
 
-// REQUIRES every surface passes through the point.
-Germs<2> germs_at(const Point<2>& point, std::span<const Quadric<2>* const> surfaces);
-Germs<3> germs_at(const Point<3>& point, std::span<const Quadric<3>* const> surfaces);
+// A surface as germs see it: the zeros of the polynomial; or a torus, with which the polynomial
+// agrees to second order at the point.
+template <std::size_t D>
+struct GermSurface {
+  const Quadric<D>* polynomial = nullptr;
+  const Torus* torus = nullptr;
+};
+
+// base^2 - radicand up to second order about the point. At a tip, a cone.
+// REQUIRES the surface passes through the point.
+Quadric<3> second_order(const Torus& torus, const Point<3>& point);
+
+// REQUIRES every surface passes through the point; a torus occurs once.
+Germs<2> germs_at(const Point<2>& point, std::span<const GermSurface<2>> surfaces);
+Germs<3> germs_at(const Point<3>& point, std::span<const GermSurface<3>> surfaces);
 
 }  // namespace exactcsg::domain
