@@ -9,7 +9,7 @@
 namespace exactcsg::cli {
 
 // From now on, allocations that would take the process beyond the limit throw std::bad_alloc, also
-// those that GMP makes (which would abort by itself). 0: no limit, but GMP throws all the same.
+// those that GMP makes (number_memory.cpp). 0: no limit.
 void limit_memory(std::size_t bytes);
 
 }  // namespace exactcsg::cli
