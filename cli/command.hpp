@@ -77,6 +77,7 @@ Command add_classify(CLI::App& app);
 Command add_equal(CLI::App& app);
 Command add_interference(CLI::App& app);
 Command add_contains(CLI::App& app);
+Command add_check(CLI::App& app);
 Command add_boundary(CLI::App& app);
 Command add_edges(CLI::App& app);
 std::vector<Command> add_golden(CLI::App& app);

@@ -76,9 +76,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
 
-  std::vector<Command> commands{add_verify(app),   add_measure(app),      add_classify(app),
-                                add_equal(app),    add_interference(app), add_contains(app),
-                                add_boundary(app), add_edges(app)};
+  std::vector<Command> commands{add_verify(app), add_measure(app),      add_classify(app),
+                                add_equal(app),  add_interference(app), add_contains(app),
+                                add_check(app),  add_boundary(app),     add_edges(app)};
   std::ranges::move(add_golden(app), std::back_inserter(commands));
   commands.push_back(add_info(app));
   std::vector<ParsedCommon> common(commands.size());

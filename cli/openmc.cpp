@@ -14,23 +14,6 @@ namespace {
 
 using namespace io::openmc;
 
-std::string text_of(const Model& model, const Step& step) {
-  switch (step.kind) {
-    case StepKind::Universe:
-      return fmt::format("universe {}", model.universes[step.index].id);
-    case StepKind::Cell:
-      return fmt::format("cell {}", model.cells[step.index].id);
-    case StepKind::Lattice:
-      break;
-  }
-  const Lattice& lattice = model.lattices[step.index];
-  std::string text = fmt::format("lattice {}", lattice.id);
-  if (!step.element) return text;
-  const auto& [i, j, layer] = *step.element;
-  return text + (lattice.has_layers ? fmt::format(" ({}, {}, {})", i, j, layer)
-                                    : fmt::format(" ({}, {})", i, j));
-}
-
 std::string text_of_cells(const Model& model, const std::vector<Index>& cells) {
   std::string text;
   for (const Index cell : cells) {
@@ -66,11 +49,7 @@ std::string verdict_of(const Model& model, const Location& location) {
 }
 
 std::string line_of(const Model& model, const Location& location) {
-  std::string path;
-  for (const Step& step : location.path) {
-    path += (path.empty() ? "; " : " > ") + text_of(model, step);
-  }
-  return verdict_of(model, location) + path + '\n';
+  return verdict_of(model, location) + "; " + path_text(model, location.path) + '\n';
 }
 
 }  // namespace

@@ -50,22 +50,24 @@ PITCH = 1_260_000
 CM = 1_000_000
 
 
-def box(g, first, half, height, boundary="reflective"):
+def box(g, first, half, height, boundary="reflective", lid="reflective"):
+    """The last plane, at the top, has no boundary condition if `lid` is None."""
     for axis, reach in (("x", half), ("y", half), ("z", height)):
         for side in (-1, 1):
-            g.surface(first, f"{axis}-plane", [side * reach], boundary)
+            is_lid = axis == "z" and side == 1
+            g.surface(first, f"{axis}-plane", [side * reach], None if is_lid and lid is None else boundary)
             first += 1
 
 
 BOX = "101 -102 103 -104 105 -106"
 
 
-def pin_cell(about, with_gap=True):
+def pin_cell(about, with_gap=True, lid="reflective"):
     g = Geometry(about)
     g.surface(1, "z-cylinder", [0, 0, FUEL])
     g.surface(2, "z-cylinder", [0, 0, CLAD_INSIDE])
     g.surface(3, "z-cylinder", [0, 0, CLAD_OUTSIDE])
-    box(g, 101, PITCH // 2, 10 * CM)
+    box(g, 101, PITCH // 2, 10 * CM, lid=lid)
     g.cell(1, "-1 105 -106", material=1)
     if with_gap:
         g.cell(2, "1 -2 105 -106", material="void")
@@ -138,29 +140,32 @@ def hexagonal_core():
     return g.text()
 
 
-def sphere_shells():
-    g = Geometry("Five concentric shells round a ball.")
+def sphere_shells(about, slip=False):
+    g = Geometry(about)
     for number in range(1, 7):
         g.surface(number, "sphere", [0, 0, 0, number * CM], "vacuum" if number == 6 else None)
     g.cell(1, "-1", material=1)
     for number in range(2, 7):
-        g.cell(number, f"{number - 1} -{number}", material=number)
+        inner = 2 if slip and number == 4 else number - 1
+        g.cell(number, f"{inner} -{number}", material=number)
     return g.text()
 
 
-def room():
-    g = Geometry("A room of 5 m within walls of 30 cm, with a pane of 1 cm in a window of 1 m.")
+def room(about, pane="21 -22 23 -24"):
+    g = Geometry(about)
     for number, (axis, place) in enumerate(
             [(a, s * r) for r in (250, 280) for a in "xyz" for s in (-1, 1)], start=1):
         g.surface(number, f"{axis}-plane", [place * CM], "vacuum" if abs(place) == 280 else None)
     for number, (axis, place) in enumerate((("y", -50), ("y", 50), ("z", -50), ("z", 50)), start=21):
         g.surface(number, f"{axis}-plane", [place * CM])
+    if "25" in pane:
+        g.surface(25, "y-plane", [51 * CM])
     g.surface(31, "x-plane", [264_500_000])
     g.surface(32, "x-plane", [265_500_000])
     outer, inner, window = "7 -8 9 -10 11 -12", "1 -2 3 -4 5 -6", "2 -8 21 -22 23 -24"
     g.cell(1, inner, material=1)
     g.cell(2, f"{outer} ~({inner}) ~({window})", material=2)
-    g.cell(3, f"{window} 31 -32", material=3)
+    g.cell(3, f"2 -8 {pane} 31 -32", material=3)
     g.cell(4, f"{window} (-31 | 32)", material=1)
     return g.text()
 
@@ -235,6 +240,222 @@ def touching():
     return g.text()
 
 
+def two_dimensional_pin():
+    g = Geometry("A fuel pin in a square of water, without ends.")
+    g.surface(1, "z-cylinder", [0, 0, FUEL])
+    for number, (axis, side) in enumerate((a, s) for a in "xy" for s in (-1, 1)):
+        g.surface(101 + number, f"{axis}-plane", [side * PITCH // 2], "reflective")
+    g.cell(1, "-1", material=1)
+    g.cell(2, "1 101 -102 103 -104", material=2)
+    return g.text()
+
+
+def hexagonal_cell():
+    """The slanted planes are at 7 from the axis: 4 x + 3 y = 35, so that all is rational."""
+    g = Geometry("A pin in a hexagonal prism of slanted planes, reflective all round.")
+    g.surface(1, "z-cylinder", [0, 0, 4 * CM])
+    g.surface(2, "y-plane", [-6 * CM], "reflective")
+    g.surface(3, "y-plane", [6 * CM], "reflective")
+    number = 4
+    for a, b in ((4, 3), (4, -3), (-4, 3), (-4, -3)):
+        g.surface(number, "plane", [a * CM, b * CM, 0, 35 * CM], "reflective")
+        number += 1
+    g.surface(8, "z-plane", [-9 * CM], "vacuum")
+    g.surface(9, "z-plane", [9 * CM], "vacuum")
+    g.cell(1, "-1 8 -9", material=1)
+    g.cell(2, "1 2 -3 -4 -5 -6 -7 8 -9", material=2)
+    return g.text()
+
+
+def graveyard():
+    g = Geometry("A ball in a shell, with a cell for all that is outside, as other codes want it.")
+    g.surface(1, "sphere", [0, 0, 0, 2 * CM])
+    g.surface(2, "sphere", [0, 0, 0, 3 * CM], "vacuum")
+    g.cell(1, "-1", material=1)
+    g.cell(2, "1 -2", material=2)
+    g.cell(3, "2", material="void")
+    return g.text()
+
+
+def vessel():
+    g = Geometry("A vessel: a cylinder with a hemisphere below it and a lid, tangent along a circle.")
+    g.surface(1, "z-cylinder", [0, 0, 20 * CM])
+    g.surface(2, "z-cylinder", [0, 0, 22 * CM])
+    g.surface(3, "sphere", [0, 0, 0, 20 * CM])
+    g.surface(4, "sphere", [0, 0, 0, 22 * CM])
+    g.surface(5, "z-plane", [0])
+    g.surface(6, "z-plane", [50 * CM])
+    g.surface(7, "sphere", [0, 0, 0, 100 * CM], "vacuum")
+    g.cell(1, "(-1 5 -6) | (-3 -5)", material=1)
+    g.cell(2, "(1 -2 5 -6) | (3 -4 -5)", material=2)
+    g.cell(3, "-7 ~((-2 5 -6) | (-4 -5))", material=3)
+    return g.text()
+
+
+def tee():
+    g = Geometry("Two pipes of equal radius that meet at a right angle, in a ball.")
+    for number, axis in ((1, "x"), (3, "z")):
+        g.surface(number, f"{axis}-cylinder", [0, 0, 3 * CM])
+        g.surface(number + 1, f"{axis}-cylinder", [0, 0, 4 * CM])
+    g.surface(5, "sphere", [0, 0, 0, 30 * CM], "vacuum")
+    g.cell(1, "-5 (-1 | -3)", material=1)
+    g.cell(2, "-5 (-2 | -4) 1 3", material=2)
+    g.cell(3, "-5 2 4", material=3)
+    return g.text()
+
+
+def cooling_tower(about, waist):
+    """Hyperboloids of one sheet x2 + y2 - z2/4 = c, as quadrics."""
+    g = Geometry(about)
+    for number, squared in ((1, 36), (2, 49)):
+        g.surface(number, "quadric", [CM, CM, -CM // 4, 0, 0, 0, 0, 0, 0, -squared * CM])
+    g.surface(3, "quadric", [CM, CM, -CM // 4, 0, 0, 0, 0, 0, 0, -waist])
+    g.surface(4, "z-plane", [-20 * CM], "vacuum")
+    g.surface(5, "z-plane", [10 * CM], "vacuum")
+    g.surface(6, "z-cylinder", [0, 0, 40 * CM], "vacuum")
+    g.cell(1, "-1 4 -5", material=1)
+    g.cell(2, "1 -3 4 -5", material=2)
+    g.cell(3, "2 4 -5 -6", material=1)
+    return g.text()
+
+
+def wedges(about, offset=0):
+    g = Geometry(about)
+    g.surface(1, "plane", [3 * CM, 4 * CM, 0, 0])
+    g.surface(2, "plane", [3 * CM, -4 * CM, 0, 0])
+    g.surface(3, "plane", [5 * CM, CM, 0, offset])
+    g.surface(4, "z-cylinder", [0, 0, 10 * CM], "vacuum")
+    g.surface(5, "z-plane", [-5 * CM], "vacuum")
+    g.surface(6, "z-plane", [5 * CM], "vacuum")
+    ends = "-4 5 -6"
+    # From the plane 3 x + 4 y = 0 to the right, counter-clockwise.
+    g.cell(1, f"1 2 {ends}", material=1)
+    g.cell(2, f"1 -2 {ends}", material=2)
+    g.cell(3, f"-1 -2 -3 {ends}", material=3)
+    g.cell(4, f"-1 2 {ends}", material=4)
+    return g.text()
+
+
+def layered_lattice(about, height):
+    g = Geometry(about)
+    g.surface(1, "sphere", [0, 0, 0, 400_000])
+    box(g, 101, 2 * CM, height, "vacuum")
+    g.cell(1, "-1", material=1, universe=1)
+    g.cell(2, "1", material=2, universe=1)
+    g.cell(3, "", material=2, universe=2)
+    g.cell(4, "", fill=61, universe=3)
+    g.cell(10, BOX, fill=60)
+    layer = "\n3 1 1 3\n1 2 2 1\n1 2 2 1\n3 1 1 3\n"
+    g.element("lattice", 'id="60"', [("dimension", "4 4 4"), ("lower_left", "-2 -2 -2"), ("pitch", "1 1 1"),
+                                     ("universes", layer * 4)])
+    g.element("lattice", 'id="61"', [("dimension", "2 2"), ("lower_left", "-0.5 -0.5"), ("pitch", "0.5 0.5"),
+                                     ("universes", "\n1 2\n2 1\n")])
+    return g.text()
+
+
+def hexagonal_without_outer():
+    g = Geometry("A hexagonal lattice of two rings without an outer universe, in a box that is larger.")
+    g.surface(1, "z-cylinder", [0, 0, 400_000])
+    box(g, 101, 2 * CM, CM)
+    g.cell(1, "-1", material=1, universe=1)
+    g.cell(2, "1", material=2, universe=1)
+    g.cell(10, BOX, fill=60)
+    g.element("hex_lattice", 'id="60" n_rings="2"', [("center", "0 0"), ("pitch", "1"),
+                                                     ("universes", "\n1\n1 1\n1\n1 1\n1\n")])
+    return g.text()
+
+
+def clipped_lattice(about, place):
+    """Every element has a rod at the centre, and a plate from x = `place` on that overlaps a tube there."""
+    g = Geometry(about)
+    g.surface(1, "z-cylinder", [0, 0, FUEL])
+    g.surface(2, "x-plane", [place])
+    g.surface(3, "x-plane", [place + 100_000])
+    box(g, 101, 3 * PITCH // 2, CM)
+    g.cell(1, "-1", material=1, universe=1)
+    g.cell(2, "1 -3", material=2, universe=1)
+    g.cell(3, "1 2", material=3, universe=1)
+    g.cell(10, BOX, fill=60)
+    corner = decimal(-3 * PITCH // 2)
+    g.element("lattice", 'id="60"', [("dimension", "3 3"), ("lower_left", f"{corner} {corner}"),
+                                     ("pitch", f"{decimal(PITCH)} {decimal(PITCH)}"),
+                                     ("universes", "\n1 1 1\n1 1 1\n1 1 1\n")])
+    return g.text()
+
+
+def filled_ball(about, radius):
+    """A universe that ends at the radius 2, seen through a ball of another radius at (5, 0, 0)."""
+    g = Geometry(about)
+    g.surface(1, "x-plane", [0])
+    g.surface(2, "sphere", [0, 0, 0, 2 * CM])
+    g.surface(3, "sphere", [5 * CM, 0, 0, radius])
+    g.surface(4, "sphere", [0, 0, 0, 20 * CM], "vacuum")
+    g.cell(1, "-2 -1", material=1, universe=1)
+    g.cell(2, "-2 1", material=2, universe=1)
+    g.cell(10, "-3", fill=1, more=' translation="5 0 0"')
+    g.cell(11, "3 -4", material=3)
+    return g.text()
+
+
+def turned_box():
+    g = Geometry("A cube that is turned by 45 degrees in a cell of the same size: its corners stay empty.")
+    box(g, 1, 2 * CM, 2 * CM, None, None)
+    box(g, 101, 5 * CM, 5 * CM)
+    cube = "1 -2 3 -4 5 -6"
+    g.cell(1, cube, material=1, universe=1)
+    g.cell(10, cube, fill=1, more=' rotation="0 0 45"')
+    g.cell(11, f"{BOX} ~({cube})", material=2)
+    return g.text()
+
+
+def balls(about, distance):
+    g = Geometry(about)
+    g.surface(1, "sphere", [0, 0, 0, CM])
+    g.surface(2, "sphere", [3 * distance // 5, 4 * distance // 5, 0, CM])
+    g.surface(3, "sphere", [0, 0, 0, 5 * CM], "vacuum")
+    g.cell(1, "-1", material=1)
+    g.cell(2, "-2", material=2)
+    g.cell(3, "1 2 -3", material=3)
+    return g.text()
+
+
+def cone_on_slope():
+    g = Geometry("A cone that stands with its apex on a slanted plane.")
+    g.surface(1, "z-cone", [CM, CM, 2 * CM, CM // 4])
+    g.surface(2, "z-plane", [2 * CM])
+    g.surface(3, "plane", [CM, 0, 2 * CM, 5 * CM])
+    g.surface(4, "sphere", [CM, CM, 2 * CM, 6 * CM], "vacuum")
+    g.cell(1, "-1 2 -4", material=1)
+    g.cell(2, "-3 -4", material=2)
+    g.cell(3, "3 -4 ~(-1 2)", material=3)
+    return g.text()
+
+
+def second_nappe():
+    g = Geometry("A funnel of which the second nappe was forgotten: it reaches into the floor.")
+    g.surface(1, "z-cone", [0, 0, 0, CM])
+    g.surface(2, "z-plane", [-CM])
+    g.surface(3, "z-cylinder", [0, 0, 6 * CM], "vacuum")
+    g.surface(4, "z-plane", [-3 * CM], "vacuum")
+    g.surface(5, "z-plane", [5 * CM], "vacuum")
+    g.cell(1, "-1 -5 4", material=1)
+    g.cell(2, "-3 4 -2", material=2)
+    g.cell(3, "1 -3 2 -5", material=3)
+    return g.text()
+
+
+def unused():
+    g = Geometry("A ball, and beside it a surface, a universe and a lattice that nothing uses.")
+    g.surface(1, "sphere", [0, 0, 0, 2 * CM], "vacuum")
+    g.surface(2, "z-plane", [CM])
+    g.surface(3, "x-plane", [CM])
+    g.cell(1, "-1", material=1)
+    g.cell(2, "-3", material=2, universe=7)
+    g.element("lattice", 'id="60"', [("dimension", "1 1"), ("lower_left", "0 0"), ("pitch", "1 1"),
+                                     ("universes", "7")])
+    return g.text()
+
+
 MODELS = {
     "pin_cell": pin_cell("A fuel pin with gap and cladding in a square of water."),
     "pin_cell_missing_cell": pin_cell("The pin cell without the cell between fuel and cladding.", with_gap=False),
@@ -244,8 +465,10 @@ MODELS = {
     "assembly_17x17_overlap": flat_assembly(
         "The same with one pin moved by 0.310001 so that it overlaps its neighbour by 1e-6.", shift=310_001),
     "hexagonal_core": hexagonal_core(),
-    "sphere_shells": sphere_shells(),
-    "room_with_window": room(),
+    "sphere_shells": sphere_shells("Five concentric shells round a ball."),
+    "sphere_shells_overlap": sphere_shells("The same, the fourth begun one surface too early.", slip=True),
+    "room_with_window": room("A room of 5 m within walls of 30 cm, with a pane of 1 cm in a window of 1 m."),
+    "room_with_window_overlap": room("The same, the pane 1 cm wider than the window.", "21 -25 23 -24"),
     "turned_units": turned_units(),
     "funnel": funnel(),
     "rounded_corner": rounded_corner("A block with a rounded edge in a liner of the same shape.", 2 * CM),
@@ -253,6 +476,29 @@ MODELS = {
                                          1_999_900),
     "coincident_surfaces": coincident(),
     "touching_ball": touching(),
+    "pin_cell_leak": pin_cell("The pin cell without a boundary condition at the top.", lid=None),
+    "two_dimensional_pin": two_dimensional_pin(),
+    "hexagonal_cell": hexagonal_cell(),
+    "hexagonal_without_outer": hexagonal_without_outer(),
+    "graveyard": graveyard(),
+    "vessel": vessel(),
+    "tee": tee(),
+    "cooling_tower": cooling_tower("A shell between two hyperboloids of one sheet.", 49 * CM),
+    "cooling_tower_gap": cooling_tower("The same, the shell thinner by 1e-6 of its square.", 49 * CM - 1),
+    "wedges": wedges("Four wedges about one line, one of them with a plane through it that says nothing new."),
+    "wedges_gap": wedges("The same, that plane moved by 1e-6 / sqrt(26).", -1),
+    "layered_lattice": layered_lattice("A lattice of 4 x 4 x 4, other lattices in its corners.", 2 * CM),
+    "layered_lattice_gap": layered_lattice("The same in a box that is higher by 1e-6.", 2 * CM + 1),
+    "clipped_overlap": clipped_lattice("An overlap that the lattice's elements clip away.", 650_000),
+    "visible_overlap": clipped_lattice("The same overlap, 0.03 of which the elements show.", 600_000),
+    "hidden_gap": filled_ball("A universe that ends beyond the ball through which it is seen.", 1_900_000),
+    "visible_gap": filled_ball("A universe that ends before the ball through which it is seen.", 2_100_000),
+    "turned_box_gap": turned_box(),
+    "touching_balls": balls("Two balls that touch where no coordinate is a round binary number.", 2 * CM),
+    "overlapping_balls": balls("The same, nearer by 5e-6: a lens.", 2 * CM - 5),
+    "cone_on_slope": cone_on_slope(),
+    "second_nappe": second_nappe(),
+    "unused": unused(),
 }
 
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "cli/run_command.hpp"
 
 namespace exactcsg::cli_test {
@@ -35,6 +37,32 @@ TEST(OpenMc, ClassifyNamesOverlapsAndSharedBoundaries) {
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_EQ(finished.out,
             "Overlap of cells 143, 144; universe 0\nOn cells 145, 1000; universe 0\n");
+}
+
+TEST(OpenMc, CheckAnswersByItsExitCode) {
+  const Finished clean = run_command({"check", geometry("assembly_17x17")});
+  EXPECT_EQ(clean.exit_code, 0) << clean.err;
+  EXPECT_NE(clean.out.find("\nclean: proved, "), std::string::npos) << clean.out;
+  const Finished defect = run_command({"check", geometry("assembly_17x17_overlap")});
+  EXPECT_EQ(defect.exit_code, 1) << defect.err;
+  EXPECT_NE(defect.out.find("\noverlap of cells 143, 144\n  exactly  ("), std::string::npos)
+      << defect.out;
+  EXPECT_EQ(run_command({"check", geometry("pin_cell"), "--box", "0,0,0,1,1"}).exit_code, 2);
+  EXPECT_EQ(run_command({"check", geometry("pin_cell"), "--box", "0,0,0,1,1,x"}).exit_code, 2);
+  EXPECT_EQ(run_command({"check", geometry("pin_cell"), "--report", "report.pdf"}).exit_code, 2);
+}
+
+TEST(OpenMc, CheckLooksIntoTheBoxAndWritesReports) {
+  const Folder folder;
+  const std::string json = folder / "report.json";
+  const std::string junit = folder / "report.xml";
+  // The gap of pin_cell_missing_cell lies between the radii 0.4096 and 0.418.
+  const Finished finished =
+      run_command({"check", geometry("pin_cell_missing_cell"), "--box", "0.45,-0.1,-1,0.5,0.1,1",
+                   "--report", json, "--report", junit});
+  EXPECT_EQ(finished.exit_code, 0) << finished.out << finished.err;
+  EXPECT_TRUE(std::filesystem::exists(json));
+  EXPECT_TRUE(std::filesystem::exists(junit));
 }
 
 TEST(OpenMc, InfoCounts) {

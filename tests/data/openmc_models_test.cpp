@@ -78,6 +78,45 @@ const Case cases[] = {
     {"coincident_surfaces", {"0.6", "0", "0"}, InCell, {2}},
     {"touching_ball", {"0.3", "0", "0"}, OnBoundary, {1, 2, 3}},
     {"touching_ball", {"0.3", "0.1", "0"}, OnBoundary, {2, 3}},
+    {"pin_cell_leak", {"0", "0", "10.1"}, InGap, {}},
+    {"two_dimensional_pin", {"0.2", "0", "1000"}, InCell, {1}},
+    {"hexagonal_cell", {"6.7", "2.5", "0"}, InCell, {2}},  // 4 * 6.7 + 3 * 2.5 = 34.3 < 35
+    {"hexagonal_cell", {"8.75", "0", "0"}, OnBoundary, {2}},
+    {"hexagonal_without_outer", {"0", "1", "0"}, InCell, {1}},
+    {"hexagonal_without_outer", {"0", "1.6", "0"}, InGap, {}},  // the upper hexagon ends at 1.5
+    {"graveyard", {"0", "0", "4"}, InCell, {3}},
+    {"vessel", {"21", "0", "0"}, InCell, {2}},  // on the plane between its two parts
+    {"vessel", {"22", "0", "0"}, OnBoundary, {2, 3}},
+    {"vessel", {"0", "0", "-21"}, InCell, {2}},
+    {"tee", {"3.5", "0", "3.5"}, InCell, {2}},
+    {"tee", {"3.5", "0", "2.5"}, InCell, {1}},
+    // At z = 4: x2 < 36 + 4 = 40 inside, and > 49 + 4 = 53 outside.
+    {"cooling_tower", {"7", "0", "4"}, InCell, {2}},
+    {"cooling_tower_gap", {"6.9999999", "0", "0.00004"}, InCell, {2}},
+    {"wedges", {"-1", "0", "0"}, InCell, {3}},
+    {"wedges", {"0", "0", "0"}, OnBoundary, {1, 2, 3, 4}},
+    // 5 x + y is -0.0000005 there, above -0.000001.
+    {"wedges_gap", {"-0.0000001", "0", "0"}, InGap, {}},
+    // Its rows are 1 2 above 2 1; the middle of an element is that of universe 1's ball.
+    {"layered_lattice", {"-1.75", "-1.75", "0.5"}, InCell, {3}},
+    {"layered_lattice", {"-1.25", "-1.75", "0.5"}, InCell, {1}},
+    {"layered_lattice", {"-1.25", "-1.75", "0"}, OnBoundary, {}},
+    {"layered_lattice", {"0.5", "0.5", "1.5"}, InCell, {3}},
+    {"layered_lattice_gap", {"0.5", "0.5", "2.0000005"}, InGap, {}},
+    {"clipped_overlap", {"0.62", "0.62", "0"}, InCell, {2}},
+    {"visible_overlap", {"0.62", "0.62", "0"}, InOverlap, {2, 3}},
+    {"hidden_gap", {"6.89", "0", "0"}, InCell, {2}},
+    {"visible_gap", {"7.05", "0", "0"}, InGap, {}},
+    {"turned_box_gap", {"1.9", "1.9", "0"}, InGap, {}},
+    {"touching_balls", {"0.6", "0.8", "0"}, OnBoundary, {1, 2, 3}},
+    {"overlapping_balls", {"0.5999985", "0.799998", "0"}, InOverlap, {1, 2}},
+    {"cone_on_slope", {"1", "1", "3"}, InCell, {1}},
+    {"cone_on_slope", {"1", "1", "1"}, InCell, {2}},
+    {"cone_on_slope", {"2", "1", "2"}, InCell, {3}},
+    {"second_nappe", {"0", "0", "-2"}, InOverlap, {1, 2}},
+    {"sphere_shells_overlap", {"2.5", "0", "0"}, InOverlap, {3, 4}},
+    {"room_with_window_overlap", {"265", "50.5", "0"}, InOverlap, {2, 3}},
+    {"unused", {"0", "0", "0"}, InCell, {1}},
 };
 
 std::filesystem::path folder() {
@@ -131,7 +170,19 @@ TEST(OpenMcModels, CleanOnesHaveNoGapAndNoOverlapAtRandomPoints) {
                          {"funnel", {170, 170, 170}},
                          {"rounded_corner", {119, 119, 99}},
                          {"coincident_surfaces", {49, 49, 49}},
-                         {"touching_ball", {9, 9, 9}}};
+                         {"touching_ball", {9, 9, 9}},
+                         {"two_dimensional_pin", {6, 6, 100}},
+                         {"hexagonal_cell", {42, 59, 89}},
+                         {"graveyard", {50, 50, 50}},
+                         {"vessel", {570, 570, 570}},
+                         {"tee", {170, 170, 170}},
+                         {"cooling_tower", {280, 280, 99}},
+                         {"wedges", {70, 70, 49}},
+                         {"layered_lattice", {19, 19, 19}},
+                         {"clipped_overlap", {18, 18, 9}},
+                         {"hidden_gap", {110, 110, 110}},
+                         {"touching_balls", {28, 28, 28}},
+                         {"cone_on_slope", {25, 25, 15}}};
   std::mt19937 random(20261122);
   for (const auto& [name, reach] : clean) {
     const Model model = read(name);

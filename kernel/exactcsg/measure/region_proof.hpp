@@ -36,13 +36,15 @@
 // claim, the cell is proved, however often it is divided by surfaces that regions share.
 // Combinations of sides that exclude each other in the whole box are left out: f < 0 and g < 0 do
 // if f + mu g >= 0 on the box for some mu > 0 (witness_search.hpp), which is what proves surfaces
-// that touch. If a combination is left, points that may have it are tried; then the cell is
-// divided. COST: O(cells (local nodes + 2^k)), k <= 10 local surfaces; an exact range (quadric.hpp)
-// for every pair of surfaces that share a small cell.
+// that touch; for some that exclude each other by threes, see exclusion_of_three.hpp. If a
+// combination is left, points that may have it are tried; then the cell is divided. COST: O(cells
+// (local nodes + 2^k)), k <= 10 local surfaces; an exact range (quadric.hpp) for every pair of
+// surfaces that share a small cell.
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -56,6 +58,7 @@
 #include <vector>
 
 #include "exactcsg/measure/certified_measure.hpp"
+#include "exactcsg/measure/exclusion_of_three.hpp"
 #include "exactcsg/measure/local_region.hpp"
 #include "exactcsg/measure/witness_search.hpp"
 
@@ -353,7 +356,33 @@ class RegionProver {
         }
       }
     }
+    return is_excluded_by_three(surfaces, sides);
+  }
+
+  bool is_excluded_by_three(const std::vector<std::uint32_t>& surfaces, Sides sides) {
+    if constexpr (std::convertible_to<P, domain::SurfaceHalfSpace>) {
+      const auto literal = [&](std::size_t i) { return 2 * surfaces[i] + (sides >> i & 1U); };
+      for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        for (std::size_t j = i + 1; j < surfaces.size(); ++j) {
+          for (std::size_t k = j + 1; k < surfaces.size(); ++k) {
+            const TripleKey key{literal(i), literal(j), literal(k)};
+            const auto [known, is_new] = exclusions_of_three_.try_emplace(key, false);
+            if (is_new) {
+              known->second =
+                  exclude_each_other(inside(key[0]), inside(key[1]), inside(key[2]), box_);
+            }
+            if (known->second) return true;
+          }
+        }
+      }
+    }
     return false;
+  }
+  using TripleKey = std::array<std::uint32_t, 3>;
+
+  // What a literal of a key says.
+  P inside(std::uint32_t literal) const {
+    return literal % 2 == 1 ? table_[literal / 2] : complement(table_[literal / 2]);
   }
 
   using PairKey = std::pair<std::uint32_t, std::uint32_t>;
@@ -373,10 +402,7 @@ class RegionProver {
   }
 
   bool is_nowhere_negative(const PairKey& key, const Rational& factor) const {
-    const auto side = [&](std::uint32_t literal) {
-      return literal % 2 == 1 ? table_[literal / 2] : complement(table_[literal / 2]);
-    };
-    return exclude_each_other(side(key.first), side(key.second), factor, box_);
+    return exclude_each_other(inside(key.first), inside(key.second), factor, box_);
   }
 
   static bool is_in_cell(const Position& x) {
@@ -434,6 +460,7 @@ class RegionProver {
   Rational undecided_;
   Rational negligible_;
   std::map<PairKey, bool> exclusions_;
+  std::map<TripleKey, bool> exclusions_of_three_;
   std::vector<Witness> witnesses_;
   std::set<std::vector<std::size_t>> witnessed_;
   std::uint64_t count_ = 0;

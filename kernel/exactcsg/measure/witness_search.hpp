@@ -105,14 +105,30 @@ struct Balance {
   Position point{};
 };
 
+// Where neither is convex, the sum is for factors between two bounds, if for any: the first found,
+// from the one that makes both as large outwards.
+inline std::optional<Balance> balance_of_saddles(const ApproximateQuadric& f,
+                                                 const ApproximateQuadric& g, double even) {
+  for (int i = 0; i < 64; ++i) {
+    const double mu = std::exp2(even + (i % 2 == 0 ? i : -i - 1) / 8.0);
+    if (const auto point = least_point(f, g, mu)) return Balance{mu, *point};
+  }
+  return std::nullopt;
+}
+
 // The factor at which f and g are equal at the least point, in relation to their scales.
 inline std::optional<Balance> balance(const ApproximateQuadric& f, const ApproximateQuadric& g) {
   const double f_scale = f.scale();
   const double g_scale = g.scale();
   if (!(f_scale > 0 && g_scale > 0)) return std::nullopt;
-  const bool f_is_convex = f.curvature_scale() == 0 || least_point(f, f, 1).has_value();
-  double low = std::log2(f_scale / g_scale) - 40;
-  double high = low + 80;
+  const auto is_convex = [](const ApproximateQuadric& h) {
+    return h.curvature_scale() == 0 || least_point(h, h, 1).has_value();
+  };
+  const bool f_is_convex = is_convex(f);
+  const double even = std::log2(f_scale / g_scale);
+  if (!f_is_convex && !is_convex(g)) return balance_of_saddles(f, g, even);
+  double low = even - 40;
+  double high = even + 40;
   std::optional<Balance> best;
   for (int i = 0; i < 64; ++i) {
     const double middle = (low + high) / 2;
@@ -150,7 +166,7 @@ inline std::optional<double> cancelling_factor(const ApproximateQuadric& f,
 inline Position pushed_inside(std::span<const ApproximateQuadric> polynomials) {
   Position x{};
   double margin = 0x1p-4;
-  for (int turn = 0; turn < 24; ++turn, margin *= 0.75) {
+  for (int turn = 0; turn < 64; ++turn, margin *= 0.75) {
     bool is_inside = true;
     for (const ApproximateQuadric& f : polynomials) {
       const Position slope = f.gradient(x);

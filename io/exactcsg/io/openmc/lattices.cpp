@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "exactcsg/domain/half_spaces.hpp"
+
 namespace exactcsg::io::openmc {
 
 namespace {
@@ -362,6 +364,98 @@ Coordinates centre_of(const Lattice& lattice, const std::array<std::int64_t, 3>&
     centre[axis] += lattice.pitch[axis] * (steps(element[axis]) + half);
   }
   return centre;
+}
+
+ElementShape element_shape(const Lattice& lattice) {
+  const Rational half(1, 2);
+  ElementShape shape;
+  for (std::size_t i = 0; i < 3; ++i) shape.half_extent[i] = half * lattice.pitch[i];
+  if (!lattice.is_hexagonal()) {
+    shape.sides = HalfSpaceRegion::full();
+    return shape;
+  }
+  const bool is_y = lattice.kind == LatticeKind::HexagonalY;
+  const std::size_t across = is_y ? 0 : 1;
+  const std::size_t straight = 1 - across;
+  const Rational step = half_root_of_three() * lattice.pitch[0];
+  shape.half_extent[across] = Rational(2, 3) * step;
+  // The forms of class_in_hexagon in the coordinates.
+  const auto side = [&](const Rational& along_across, const Rational& along_straight) {
+    domain::Coordinates<3> normal;
+    normal[across] = along_across;
+    normal[straight] = along_straight;
+    return HalfSpaceRegion::primitive(domain::make_plane(normal, -1));
+  };
+  const Rational slope = Rational(3, 2) / step;
+  const Rational one = 1 / lattice.pitch[0];
+  std::vector<HalfSpaceRegion> sides;
+  for (const int sign : {1, -1}) {
+    sides.push_back(side(sign * slope, sign * one));
+    sides.push_back(side(sign * slope, -sign * one));
+    sides.push_back(side(0, 2 * sign * one));
+  }
+  shape.sides = HalfSpaceRegion::compose(csg::BooleanOperator::Intersection, std::move(sides));
+  return shape;
+}
+
+namespace {
+
+std::int64_t counted(const Integer& value) {
+  if (!value.fits_slong_p() || abs(value) > Integer(1) << 60U) {
+    throw Error(ErrorId::TooLarge, {"a lattice with outer that is seen over 2^60 elements", ""});
+  }
+  return value.get_si();
+}
+
+// Widens the range so that it has both the floor of the value and the one after it.
+void include(ElementRange& range, std::size_t axis, const Rational& value, bool is_first) {
+  const std::int64_t below = counted(floor_of(value));
+  range.first[axis] = is_first ? below : std::min(range.first[axis], below);
+  range.last[axis] = is_first ? below + 2 : std::max(range.last[axis], below + 2);
+}
+
+}  // namespace
+
+ElementRange elements_near(const Lattice& lattice, const domain::Box<3>& box) {
+  ElementRange range{{0, 0, 0}, {1, 1, 1}};
+  const auto& low = box.lower();
+  const auto& high = box.upper();
+  const auto between = [&](std::size_t axis, const Rational& origin) {
+    const auto bound = [&](const Rational& x) {
+      return Rational((x - origin) / lattice.pitch[axis]);
+    };
+    range.first[axis] = counted(floor_of(bound(low[axis])));
+    range.last[axis] = counted(-floor_of(Rational(-bound(high[axis]))));
+  };
+  if (lattice.has_layers) {
+    between(2, lattice.is_hexagonal()
+                   ? Rational(lattice.origin[2] -
+                              lattice.pitch[2] * static_cast<long>(lattice.layers) / 2)
+                   : lattice.origin[2]);
+  }
+  if (!lattice.is_hexagonal()) {
+    for (std::size_t axis = 0; axis < 2; ++axis) between(axis, lattice.origin[axis]);
+    return range;
+  }
+  // The nearest centre is at a corner of the parallelogram of centres that a point is in.
+  bool is_first = true;
+  for (const Rational& x : {low[0], high[0]}) {
+    for (const Rational& y : {low[1], high[1]}) {
+      const SkewPoint skew = skew_of(lattice.kind, Rational(x - lattice.origin[0]),
+                                     Rational(y - lattice.origin[1]), lattice.pitch[0]);
+      include(range, 0, skew.i, is_first);
+      include(range, 1, skew.a, is_first);
+      is_first = false;
+    }
+  }
+  return range;
+}
+
+bool is_element_of(const Lattice& lattice, const std::array<std::int64_t, 3>& element) {
+  const auto& [first, second, layer] = element;
+  if (layer < 0 || layer >= lattice.layers) return false;
+  if (lattice.is_hexagonal()) return is_hexagon_of(lattice, Integer(first), Integer(second));
+  return first >= 0 && first < lattice.counts[0] && second >= 0 && second < lattice.counts[1];
 }
 
 LatticePlace place_in(const Lattice& lattice, const Point& point) {

@@ -38,8 +38,27 @@ LatticePlace place_in(const Lattice& lattice, const Point& point);
 
 // The position in Lattice::elements. REQUIRES an element of the lattice.
 std::size_t element_index(const Lattice& lattice, const std::array<std::int64_t, 3>& element);
-// REQUIRES the same
+// Of the grid that the lattice is a part of: an element of it or not.
 domain::Coordinates<3> centre_of(const Lattice& lattice,
                                  const std::array<std::int64_t, 3>& element);
+
+// An element round its own centre: the points inside `sides` whose coordinates are at most
+// half_extent in magnitude; along z any, if the lattice has no layers.
+struct ElementShape {
+  domain::Coordinates<3> half_extent;
+  HalfSpaceRegion sides;  // Full if rectangular
+};
+ElementShape element_shape(const Lattice& lattice);
+
+// Numbers of elements in a row along each of the three: from first up to, but without, last.
+struct ElementRange {
+  std::array<std::int64_t, 3> first{};
+  std::array<std::int64_t, 3> last{};
+};
+// Has all elements of the grid that meet the interior of the box, and perhaps others.
+// THROWS Error(TooLarge) if they cannot be counted
+ElementRange elements_near(const Lattice& lattice, const domain::Box<3>& box);
+
+bool is_element_of(const Lattice& lattice, const std::array<std::int64_t, 3>& element);
 
 }  // namespace exactcsg::io::openmc

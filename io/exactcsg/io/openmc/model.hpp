@@ -106,6 +106,9 @@ struct Model {
   std::vector<Warning> warnings;
 };
 
+// What the cell is filled with: no universe, one, or those of a lattice; ascending, each once.
+std::vector<Index> universes_in(const Model& model, const Cell& cell);
+
 // The region as a tree of half-spaces. Equal sides share one primitive's data.
 HalfSpaceRegion half_spaces(const Model& model, const Region& region);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exactcsg/io/openmc/point_location.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +17,23 @@
 namespace exactcsg::io::openmc {
 
 namespace {
+
+std::string text_of(const Model& model, const Step& step) {
+  switch (step.kind) {
+    case StepKind::Universe:
+      return fmt::format("universe {}", model.universes[step.index].id);
+    case StepKind::Cell:
+      return fmt::format("cell {}", model.cells[step.index].id);
+    case StepKind::Lattice:
+      break;
+  }
+  const Lattice& lattice = model.lattices[step.index];
+  std::string text = fmt::format("lattice {}", lattice.id);
+  if (!step.element) return text;
+  const auto& [i, j, layer] = *step.element;
+  return text + (lattice.has_layers ? fmt::format(" ({}, {}, {})", i, j, layer)
+                                    : fmt::format(" ({}, {})", i, j));
+}
 
 struct Candidate {
   Index cell;
@@ -344,6 +363,12 @@ class UniverseIndex {
 };
 
 }  // namespace
+
+std::string path_text(const Model& model, const std::vector<Step>& path) {
+  std::string text;
+  for (const Step& step : path) text += (text.empty() ? "" : " > ") + text_of(model, step);
+  return text;
+}
 
 Location locate(const Model& model, const Point& point) {
   return descend(model, point, [&](Index universe, const Point& local) {

@@ -25,6 +25,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "exactcsg/io/openmc/model.hpp"
@@ -42,6 +43,9 @@ struct Step {
   std::optional<std::array<std::int64_t, 3>> element;
   friend bool operator==(const Step&, const Step&) = default;
 };
+
+// "universe 0 > cell 10 > lattice 50 (8, 8) > universe 2", by ids.
+std::string path_text(const Model& model, const std::vector<Step>& path);
 
 struct Location {
   PointVerdict verdict = PointVerdict::InGap;

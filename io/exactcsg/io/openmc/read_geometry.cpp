@@ -282,22 +282,6 @@ class GeometryReader {
     }
   }
 
-  // The universes directly below one, with the cell that says so; each once for a cell.
-  template <class Visit>
-  void for_each_below(Index universe, Visit&& visit) const {
-    for (const Index index : model_.universes[universe].cells) {
-      const Cell& cell = model_.cells[index];
-      if (cell.fill == FillKind::Universe) visit(cell.filled_with, cell);
-      if (cell.fill != FillKind::Lattice) continue;
-      const Lattice& lattice = model_.lattices[cell.filled_with];
-      std::vector<Index> below = lattice.elements;
-      if (lattice.outer) below.push_back(*lattice.outer);
-      std::sort(below.begin(), below.end());
-      below.erase(std::unique(below.begin(), below.end()), below.end());
-      for (const Index element : below) visit(element, cell);
-    }
-  }
-
   // Depth first, over a stack of our own: universes may be nested as deeply as a file is long.
   void refuse_cycles() const {
     enum class State : unsigned char { New, Open, Done };
@@ -315,10 +299,13 @@ class GeometryReader {
         if (states[universe] != State::New) continue;
         states[universe] = State::Open;
         pending.emplace_back(universe, true);
-        for_each_below(universe, [&](Index below, const Cell& cell) {
-          if (states[below] == State::Open) throw_cycle(cell, below);
-          if (states[below] == State::New) pending.emplace_back(below, false);
-        });
+        for (const Index index : model_.universes[universe].cells) {
+          const Cell& cell = model_.cells[index];
+          for (const Index below : universes_in(model_, cell)) {
+            if (states[below] == State::Open) throw_cycle(cell, below);
+            if (states[below] == State::New) pending.emplace_back(below, false);
+          }
+        }
       }
     }
   }
@@ -363,6 +350,17 @@ class GeometryReader {
 };
 
 }  // namespace
+
+std::vector<Index> universes_in(const Model& model, const Cell& cell) {
+  if (cell.fill == FillKind::Material) return {};
+  if (cell.fill == FillKind::Universe) return {cell.filled_with};
+  const Lattice& lattice = model.lattices[cell.filled_with];
+  std::vector<Index> universes = lattice.elements;
+  if (lattice.outer) universes.push_back(*lattice.outer);
+  std::sort(universes.begin(), universes.end());
+  universes.erase(std::unique(universes.begin(), universes.end()), universes.end());
+  return universes;
+}
 
 HalfSpaceRegion half_spaces(const Model& model, const Region& region) {
   return csg::map(region, [&](const SurfaceSide& side) {

@@ -250,20 +250,46 @@ Surface read_surface(const Element& element) {
           element.position()};
 }
 
+std::optional<PlaneSide> plane_side(const Surface& surface, bool is_positive) {
+  const Kind& kind = kind_of(surface.type);
+  if (kind.shape != Shape::Plane && kind.shape != Shape::AxisPlane) return std::nullopt;
+  PlaneSide side;
+  side.offset = surface.coefficients.back();
+  for (std::size_t i = 0; i < 3; ++i) {
+    side.normal[i] = kind.shape == Shape::Plane ? surface.coefficients[i] : i == kind.axis ? 1 : 0;
+    if (is_positive) side.normal[i] = -side.normal[i];
+  }
+  if (is_positive) side.offset = -side.offset;
+  return side;
+}
+
+Extent inside_extent(const Surface& surface, std::size_t axis) {
+  const Kind& kind = kind_of(surface.type);
+  const std::vector<Rational>& c = surface.coefficients;
+  const auto round = [](const Rational& centre, const Rational& reach) {
+    return Extent{Rational(centre - reach), Rational(centre + reach)};
+  };
+  if (kind.shape == Shape::Sphere) return round(c[axis], c[3]);
+  if (kind.shape == Shape::Torus) {
+    return round(c[axis], kind.axis == axis ? c[4] : Rational(c[3] + c[5]));
+  }
+  if (kind.shape == Shape::Cylinder && kind.axis != axis) {
+    return round(axis_of(kind, c).point[axis], c[2]);
+  }
+  return {};
+}
+
 std::array<double, 2> extent_along(const Surface& surface, std::size_t axis) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Kind& kind = kind_of(surface.type);
-  const std::vector<Rational>& c = surface.coefficients;
-  const auto round_centre = [&](const Rational& centre, const Rational& reach) {
-    return std::array{nearest_double(centre - reach), nearest_double(centre + reach)};
+  const auto only = [](const Rational& place) {
+    return std::array{nearest_double(place), nearest_double(place)};
   };
-  if (kind.shape == Shape::AxisPlane && kind.axis == axis) return round_centre(c[0], 0);
-  if (kind.shape == Shape::Sphere) return round_centre(c[axis], c[3]);
-  if (kind.shape == Shape::Cone) return round_centre(c[axis], 0);
-  if (kind.shape == Shape::Cylinder && kind.axis != axis) {
-    return round_centre(axis_of(kind, c).point[axis], c[2]);
-  }
-  return {infinity, -infinity};
+  if (kind.shape == Shape::AxisPlane && kind.axis == axis) return only(surface.coefficients[0]);
+  if (kind.shape == Shape::Cone) return only(surface.coefficients[axis]);
+  const Extent inside = inside_extent(surface, axis);
+  if (!inside.lower || !inside.upper) return {infinity, -infinity};
+  return {nearest_double(*inside.lower), nearest_double(*inside.upper)};
 }
 
 }  // namespace exactcsg::io::openmc

@@ -26,4 +26,18 @@ bool takes_both_signs(const domain::Quadric<3>& f);
 // bounded there. [Approximate]
 std::array<double, 2> extent_along(const Surface& surface, std::size_t axis);
 
+// {x : normal x <= offset}, of a side of a plane.
+struct PlaneSide {
+  domain::Coordinates<3> normal;
+  Rational offset;
+};
+std::optional<PlaneSide> plane_side(const Surface& surface, bool is_positive);
+
+// Along an axis, where it is bounded.
+struct Extent {
+  std::optional<Rational> lower, upper;
+};
+// Of the inside ("-id") of a sphere, cylinder or torus; unbounded for others.
+Extent inside_extent(const Surface& surface, std::size_t axis);
+
 }  // namespace exactcsg::io::openmc
