@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "cli/command.hpp"
 #include "cli/output_file.hpp"
 #include "exactcsg/io/mesh/mesh_file.hpp"
+#include "exactcsg/io/mesh/written_surface.hpp"
 
 namespace exactcsg::cli {
 
@@ -14,6 +16,7 @@ namespace {
 struct Arguments {
   std::string model;
   std::string output;
+  bool is_unchecked = false;
 };
 
 void check_format(const std::string& file) {
@@ -21,6 +24,26 @@ void check_format(const std::string& file) {
   if (ending == ".off" || ending == ".stl" || ending == ".obj" || ending == ".ply") return;
   throw Error(ErrorId::UnknownFormat,
               {fmt::format("'{}'", ending), ".off, .stl, .obj or .ply", SourcePosition{file}});
+}
+
+// Rounding may turn a facet over, or let two meet.
+void check_what_was_written(Context& context, const Boundary& boundary, const std::string& file) {
+  if (boundary.empty()) return;
+  context.progress().begin("check", 0);
+  const io::PolygonSoup soup = io::read_polygon_soup(file);
+  const std::optional<Error> fault = io::fault_of(soup);
+  const std::size_t before = io::count_pieces(boundary);
+  const std::size_t after = io::count_pieces(soup);
+  if (fault) {
+    context.warn(
+        fmt::format("{}: warning: the rounded surface bounds no solid: {}", file, fault->what()));
+  } else if (before != after) {
+    context.warn(fmt::format("{}: warning: the rounded surface has {} pieces, the solid's {}", file,
+                             after, before));
+  } else {
+    context.print(fmt::format("{}: the rounded surface bounds a solid, in {} {}\n", file, after,
+                              after == 1 ? "piece" : "pieces"));
+  }
 }
 
 Answer write(Context& context, const Arguments& arguments) {
@@ -34,6 +57,7 @@ Answer write(Context& context, const Arguments& arguments) {
   });
   context.print(fmt::format("{}: {} triangles, coordinates rounded by at most {:.3g}\n",
                             arguments.output, report.triangles, report.largest_rounding));
+  if (!arguments.is_unchecked) check_what_was_written(context, boundary, arguments.output);
   if (report.merged_vertices != 0 || report.degenerate_triangles != 0) {
     context.warn(fmt::format(
         "{}: warning: the format's rounding made {} distinct vertices equal and {} triangles flat",
@@ -52,6 +76,8 @@ Command add_boundary(CLI::App& app) {
   command->add_option("-o,--output", arguments->output, "the mesh: .off, .stl (binary), .obj, .ply")
       ->type_name("FILE")
       ->required();
+  command->add_flag("--no-check", arguments->is_unchecked,
+                    "do not read the file again to see what rounding made of the surface");
   return {command, [arguments](Context& context) { return write(context, *arguments); }};
 }
 

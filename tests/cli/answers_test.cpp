@@ -299,6 +299,26 @@ TEST(BoundaryFile, ReadsBackAsTheSameSolid) {
   }
 }
 
+// Doubles keep two plates apart whose gap is 1e-9 at x = 1000, single precision does not: their
+// facing sides fall together there.
+TEST(BoundaryFile, SaysWhatRoundingMadeOfTheSurface) {
+  const Folder folder;
+  const std::string file =
+      folder.write("gap.csg",
+                   "cube(size = [1000, 1, 1]);\n"
+                   "multmatrix([[1,0,0,1000.000000001],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {\n"
+                   "  cube(size = [1, 1, 1]);\n}\n");
+  const Finished exact = run_command({"boundary", file, "-o", folder / "gap.off"});
+  EXPECT_EQ(exact.exit_code, 0) << exact.err;
+  EXPECT_NE(exact.out.find("the rounded surface bounds a solid, in 2 pieces"), std::string::npos);
+  const Finished single = run_command({"boundary", file, "-o", folder / "gap.stl"});
+  EXPECT_EQ(single.exit_code, 0) << single.err;
+  EXPECT_NE(single.err.find("warning: the rounded surface"), std::string::npos) << single.err;
+  const Finished unchecked =
+      run_command({"boundary", file, "-o", folder / "gap.stl", "--no-check"});
+  EXPECT_EQ(unchecked.err.find("the rounded surface"), std::string::npos) << unchecked.err;
+}
+
 TEST(BoundaryFile, NothingIsLeftBehindByAFailure) {
   const Folder folder;
   const std::string file = folder.write("cube.csg", "cube(size = 1);\n");

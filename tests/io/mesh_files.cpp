@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "exactcsg/io/mesh/mesh_file.hpp"
+#include "exactcsg/io/mesh/written_surface.hpp"
 #include "planar_support.hpp"
 
 namespace exactcsg::io::test {
@@ -413,6 +414,53 @@ TEST_F(MeshFiles, TheReportCountsWhatRoundingDoes) {
   EXPECT_EQ(exact.merged_vertices, 0U);
   EXPECT_EQ(exact.degenerate_triangles, 0U);
   EXPECT_EQ(exact.largest_rounding, 0);
+}
+
+// Expected: what the change does to a cube with a hole, by its construction.
+TEST_F(MeshFiles, FindsWhatRoundingDoesToASurface) {
+  const fs::path file = folder_ / "r.off";
+  write_boundary(cube_with_hole(), file);
+  const PolygonSoup sound = read_polygon_soup(file);
+  EXPECT_FALSE(fault_of(sound));
+  EXPECT_EQ(count_pieces(sound), 1U);
+  EXPECT_EQ(count_pieces(cube_with_hole()), 1U);
+
+  const auto fault_id = [](const PolygonSoup& soup) {
+    const std::optional<Error> fault = fault_of(soup);
+    return fault ? fault->id() : ErrorId::Usage;
+  };
+  PolygonSoup open = sound;
+  open.facets.pop_back();
+  EXPECT_EQ(fault_id(open), ErrorId::OpenMesh);
+
+  PolygonSoup inverted = sound;
+  for (auto& facet : inverted.facets) std::swap(facet[0], facet[1]);
+  EXPECT_EQ(fault_id(inverted), ErrorId::InvertedMesh);
+
+  PolygonSoup crossing = sound;
+  crossing.vertices.front().x += 5;
+  EXPECT_EQ(fault_id(crossing), ErrorId::SelfIntersectingMesh);
+
+  // A facet whose corners come to lie on a line.
+  PolygonSoup flat = sound;
+  const auto& corners = flat.facets.front();
+  const Point3 p = flat.vertices[corners[0]];
+  const Point3 q = flat.vertices[corners[1]];
+  flat.vertices[corners[2]] = {(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2};
+  EXPECT_EQ(fault_id(flat), ErrorId::DegenerateFacet);
+
+  // Two bodies that come to touch are one piece.
+  PolygonSoup two = sound;
+  const auto count = static_cast<std::uint32_t>(sound.vertices.size());
+  for (const Point3& v : sound.vertices) two.vertices.push_back({v.x + 10, v.y, v.z});
+  for (auto facet : sound.facets) {
+    for (std::uint32_t& v : facet) v += count;
+    two.facets.push_back(facet);
+  }
+  EXPECT_EQ(count_pieces(two), 2U);
+  EXPECT_FALSE(fault_of(two));
+  two.vertices[count] = two.vertices[0];
+  EXPECT_EQ(count_pieces(two), 1U);
 }
 
 TEST_F(MeshFiles, WritingIsRefusedByName) {

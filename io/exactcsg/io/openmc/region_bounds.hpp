@@ -30,8 +30,8 @@ std::optional<domain::Box<3>> cut(const domain::Box<3>& box, const RegionBounds&
 // The box in which the root is looked at if nobody says which: its cells' bounds, and a little
 // more, so that what lies next to them is seen. Along an axis without bounds: those of all surfaces
 // of the root; or, if the whole model is the same everywhere along it, from -1 to 1.
-// THROWS Error(UnboundedSolid) if no surface of the root's cells has a boundary condition, or an axis
-// has no bounds.
+// THROWS Error(UnboundedSolid) if no surface of the root's cells has a boundary condition, or an
+// axis has no bounds.
 domain::Box<3> box_of_root(const Model& model);
 
 }  // namespace exactcsg::io::openmc
