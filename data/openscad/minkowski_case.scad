@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: CC0-1.0
-// Minkowski sums: a case rounded by a sphere, a frame thickened by a cylinder, plates in the plane.
+// Minkowski sums: a case rounded by a sphere, a box bevelled by a cone, plates in the plane.
 
 minkowski() {
   cube([20, 14, 6]);
   sphere(r = 2, $fn = 12);
 }
-// Not convex: the window shrinks by the cylinder.
-translate([35, 0, 0]) minkowski() {
-  difference() {
-    cube([16, 14, 4]);
-    translate([4, 4, -1]) cube([8, 6, 9]);
+translate([35, 0, 0]) difference() {
+  minkowski() {
+    rotate([0, 0, 30]) cube([12, 10, 4]);
+    cylinder(h = 3, r1 = 2, r2 = 0.5, $fn = 8);
   }
-  cylinder(h = 1, r = 1, $fn = 8);
+  translate([0, 8, -1]) cylinder(h = 20, r = 2.5, $fn = 10);
 }
 translate([0, 30, 0]) linear_extrude(height = 3) minkowski() {
   difference() {

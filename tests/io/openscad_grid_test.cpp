@@ -98,9 +98,78 @@ TEST(OpenscadGrid, CutsBodiesBeforeTheirSections) {
             12U);
 }
 
+TEST(OpenscadGrid, CutsTheConvexOperandsOfAMinkowskiSum) {
+  const auto found =
+      corners("minkowski() { " + turn +
+              "{ cube(size = [1, 2, 3]); } group(); cylinder($fn = 3, h = 0.7, r = 0.3); }");
+  std::vector<Point3> expected;
+  for (const long z : {314572L, 4194303L}) {
+    for (const auto& [x, y] : std::initializer_list<std::pair<long, long>>{{855664, 461575},
+                                                                           {-52429, -62713},
+                                                                           {1327522, 734003},
+                                                                           {-1101004, 1753473},
+                                                                           {-1101004, 2298329},
+                                                                           {278947, 2550189},
+                                                                           {-192911, 2822617}}) {
+      expected.push_back(on_grid(x, y, z));
+    }
+  }
+  EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected));
+}
+
+// As `corners` of the lower face, in cells of the clipping grid.
+std::vector<Point3> plate_on_clipping_grid(std::initializer_list<std::pair<long, long>> outline) {
+  std::vector<Point3> result;
+  for (const long z : {0L, 1048576L}) {
+    for (const auto& [x, y] : outline) result.push_back(on_grid(16 * x, 16 * y, z));
+  }
+  return result;
+}
+
+TEST(OpenscadGrid, AddsPlanarFiguresAsTheClippingLibraryDoes) {
+  const auto found = corners(
+      "linear_extrude(height = 1) { minkowski() { circle(r = 1.23457, $fn = 5); "
+      "square(size = [0.7, 0.3]); circle(r = 0.3, $fn = 3); } }");
+  EXPECT_THAT(found,
+              testing::UnorderedElementsAreArray(plate_on_clipping_grid({{90537, -76948},
+                                                                         {90537, 96608},
+                                                                         {61047, 113634},
+                                                                         {2 * -37643, 2 * 42121},
+                                                                         {2 * -37643, 2 * -32291},
+                                                                         {2 * 7586, 2 * -46987},
+                                                                         {146443, 0},
+                                                                         {146443, 19660},
+                                                                         {2 * 7586, 2 * 56817},
+                                                                         {61047, -93974}})));
+}
+
+TEST(OpenscadGrid, UnitesFacetsToShadowsAsTheClippingLibraryDoes) {
+  const auto found = corners("linear_extrude(height = 1) { projection() { " + turn +
+                             "{ multmatrix([[1,0,0,0],[0,0.8,-0.6,0],[0,0.6,0.8,0],[0,0,0,1]]) { "
+                             "cube(size = [1, 2, 3], center = true); } } "
+                             "sphere($fn = 5, r = 1.3); } }");
+  EXPECT_THAT(found,
+              testing::UnorderedElementsAreArray(plate_on_clipping_grid({{2 * -27601, 2 * 27268},
+                                                                         {2 * -10387, 2 * 62988},
+                                                                         {-77529, 93208},
+                                                                         {22311, -79721},
+                                                                         {90637, -66993},
+                                                                         {66675, -25491},
+                                                                         {4 * 21299, 0},
+                                                                         {2 * 4259, 2 * 37620},
+                                                                         {26327, 81026},
+                                                                         {-68925, -50077},
+                                                                         {-68925, 50077},
+                                                                         {33881, -99761}})));
+}
+
 TEST(OpenscadGrid, RefusesWhatOpenscadRoundsOnTheWay) {
-  for (const char* text : {"minkowski() { cube(1); cube(1); }",
-                           "linear_extrude(height = 1) { projection() { cube(1); } }"}) {
+  const std::string frame =
+      "difference() { cube(3); multmatrix([[1,0,0,1],[0,1,0,1],"
+      "[0,0,1,-1],[0,0,0,1]]) { cube([1, 1, 9]); } }";
+  for (const std::string& text :
+       {"minkowski() { cube(1); " + frame + " }",
+        "linear_extrude(height = 1) { projection() { " + frame + " } }"}) {
     try {
       corners(text);
       ADD_FAILURE() << "accepted: " << text;

@@ -97,6 +97,38 @@ ClipperLib::JoinType join_type(OffsetCorner corner) {
   throw Error(ErrorId::InternalError, {"a corner of no kind", ""});
 }
 
+ClipperLib::Path moved(ClipperLib::Path path, const ClipperLib::IntPoint& by) {
+  for (ClipperLib::IntPoint& p : path) {
+    p.X += by.X;
+    p.Y += by.Y;
+  }
+  return path;
+}
+
+// The sums of the outlines' edges, two by two.
+void add_sums_of_edges(const ClipperLib::Path& a, const ClipperLib::Path& b,
+                       ClipperLib::Paths& terms) {
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const ClipperLib::Path here = moved(a, b[i]);
+    const ClipperLib::Path there = moved(a, b[(i + 1) % b.size()]);
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      const std::size_t k = (j + 1) % a.size();
+      ClipperLib::Path& quad = terms.emplace_back();
+      quad = {here[j], there[j], there[k], here[k]};
+      if (!ClipperLib::Orientation(quad)) ClipperLib::ReversePath(quad);
+    }
+  }
+}
+
+// The figure at one point of each outline of the other that is no hole.
+void add_moved_to_outlines(const ClipperLib::Paths& figure, const ClipperLib::Paths& other,
+                           ClipperLib::Paths& terms) {
+  for (const ClipperLib::Path& outline : other) {
+    if (outline.empty() || !ClipperLib::Orientation(outline)) continue;
+    for (const ClipperLib::Path& path : figure) terms.push_back(moved(path, outline.front()));
+  }
+}
+
 }  // namespace
 
 DoubleFigure clip(BooleanOperator operation, std::span<const DoubleFigure> operands) {
@@ -131,6 +163,41 @@ DoubleFigure grown(const DoubleFigure& figure, double distance, OffsetCorner cor
   offset.AddPaths(paths_of(figure, Winding::Keep), join_type(corner), ClipperLib::etClosedPolygon);
   ClipperLib::PolyTree result;
   offset.Execute(result, distance * scale);
+  return figure_of(result);
+}
+
+DoubleFigure minkowski_sum(std::span<const DoubleFigure> operands) {
+  if (operands.size() == 1) return operands.front();
+  ClipperLib::PolyTree result;
+  ClipperLib::Paths sum = paths_of(operands.front(), Winding::Keep);
+  for (std::size_t i = 1; i < operands.size(); ++i) {
+    const ClipperLib::Paths operand = paths_of(operands[i], Winding::Keep);
+    ClipperLib::Paths terms;
+    for (const ClipperLib::Path& b : operand) {
+      for (const ClipperLib::Path& a : sum) add_sums_of_edges(a, b, terms);
+    }
+    add_moved_to_outlines(sum, operand, terms);
+    add_moved_to_outlines(operand, sum, terms);
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(terms, ClipperLib::ptSubject, true);
+    clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    ClipperLib::PolyTreeToPaths(result, sum);
+  }
+  return figure_of(result);
+}
+
+DoubleFigure united_shadows(std::span<const DoubleFigure> facets_of_solids) {
+  ClipperLib::Clipper all;
+  for (const DoubleFigure& facets : facets_of_solids) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(paths_of(facets, Winding::MakePositive), ClipperLib::ptSubject, true);
+    ClipperLib::Paths shadow;
+    clipper.Execute(ClipperLib::ctUnion, shadow, ClipperLib::pftNonZero);
+    all.AddPaths(shadow, ClipperLib::ptSubject, true);
+  }
+  all.StrictlySimple(true);
+  ClipperLib::PolyTree result;
+  all.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
   return figure_of(result);
 }
 

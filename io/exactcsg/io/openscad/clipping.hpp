@@ -42,4 +42,12 @@ DoubleFigure sanitized(const DoubleFigure& figure, Winding winding);
 DoubleFigure grown(const DoubleFigure& figure, double distance, OffsetCorner corner,
                    double arc_tolerance);
 
+// What minkowski() becomes. REQUIRES an operand
+// THROWS Error(NumberOutOfRange)
+DoubleFigure minkowski_sum(std::span<const DoubleFigure> operands);
+
+// What projection() without cut becomes: the facets of each solid, seen from above or below.
+// THROWS Error(NumberOutOfRange)
+DoubleFigure united_shadows(std::span<const DoubleFigure> facets_of_solids);
+
 }  // namespace exactcsg::io::openscad

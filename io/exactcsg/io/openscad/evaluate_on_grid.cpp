@@ -15,6 +15,7 @@
 #include "exactcsg/io/openscad/named_files.hpp"
 #include "exactcsg/io/openscad/node_walk.hpp"
 #include "exactcsg/io/openscad/shapes.hpp"
+#include "exactcsg/io/planar/minkowski.hpp"
 #include "exactcsg/io/planar/projection.hpp"
 #include "exactcsg/solid/evaluate.hpp"
 #include "exactcsg/solid/measures.hpp"
@@ -171,7 +172,7 @@ class GridBuilder {
       case NodeKind::Resize:
         return resized(node, operands);
       case NodeKind::Minkowski:
-        refuse("'minkowski', whose operands it rounds on the way,");
+        return minkowski(operands);
       default:
         return unite(operands);
     }
@@ -305,29 +306,95 @@ class GridBuilder {
   }
 
   static void solid_hull(std::span<const Outcome> operands, Outcome& result) {
-    std::vector<Point3> points;
-    const auto add = [&](const std::vector<DoublePoint>& polygon) {
-      for (const auto& [x, y, z] : polygon) {
-        points.push_back({rational_of(x), rational_of(y), rational_of(z)});
-      }
-    };
+    std::vector<DoublePoint> points;
     for (const Outcome& operand : operands) {
       if (operand.dimension != 3 || operand.is_empty()) continue;
-      if (operand.exact) {
-        // OpenSCAD takes the doubles of the exact corners.
-        for (const auto& p : corners_of(hull(operand.solid))) {
-          points.push_back({rational_of(p[0]), rational_of(p[1]), rational_of(p[2])});
-        }
-        continue;
-      }
-      for (const Cap& cap : operand.soup.caps) {
-        for (const auto& loop : cap.loops) add(loop);
-      }
-      for (const auto& polygon : operand.soup.polygons) add(polygon);
+      // OpenSCAD takes the doubles of the exact corners.
+      const std::vector<DoublePoint> some =
+          operand.exact ? corners_of(hull(operand.solid)) : points_of(operand.soup);
+      points.insert(points.end(), some.begin(), some.end());
     }
-    result.soup.convexity = Soup::Convexity::Known;
-    std::vector<DoublePoint> corners = corners_of(hull(std::span<const Point3>(points)));
-    if (!corners.empty()) result.soup.polygons.push_back(std::move(corners));
+    result.soup = hull_soup(points);
+  }
+
+  static std::vector<DoublePoint> points_of(const Soup& soup) {
+    std::vector<DoublePoint> points;
+    const auto add = [&](const std::vector<DoublePoint>& polygon) {
+      points.insert(points.end(), polygon.begin(), polygon.end());
+    };
+    for (const Cap& cap : soup.caps) {
+      for (const auto& loop : cap.loops) add(loop);
+    }
+    for (const auto& polygon : soup.polygons) add(polygon);
+    return points;
+  }
+
+  static Solid hull_of_points(const std::vector<DoublePoint>& points) {
+    std::vector<Point3> exact;
+    for (const auto& [x, y, z] : points) {
+      exact.push_back({rational_of(x), rational_of(y), rational_of(z)});
+    }
+    return hull(std::span<const Point3>(exact));
+  }
+
+  static Soup hull_soup(const std::vector<DoublePoint>& points) {
+    Soup soup;
+    soup.convexity = Soup::Convexity::Known;
+    std::vector<DoublePoint> corners = corners_of(hull_of_points(points));
+    if (!corners.empty()) soup.polygons.push_back(std::move(corners));
+    return soup;
+  }
+
+  Outcome minkowski(std::span<const Outcome> operands) {
+    const Outcome* const first = first_of_any_dimension(operands);
+    if (first == nullptr) return {};
+    if (first->dimension == 2) {
+      Outcome result;
+      result.node = first->node;
+      result.dimension = 2;
+      result.planar = minkowski_sum(figures_of(operands));
+      return result;
+    }
+    std::optional<Outcome> sum;
+    for (const Outcome& operand : operands) {
+      if (operand.dimension != 3 || operand.is_empty()) continue;
+      sum = sum ? sum_of_convex(*sum, operand) : operand;
+    }
+    return sum.value_or(Outcome{first->node, 3, false, {}, {}, {}});
+  }
+
+  static std::vector<DoubleFigure> figures_of(std::span<const Outcome> operands) {
+    std::vector<DoubleFigure> figures;
+    for (const Outcome& operand : operands) {
+      if (operand.dimension == 2) figures.push_back(operand.planar);
+    }
+    return figures;
+  }
+
+  static bool is_convex_as_written(const Outcome& operand) {
+    return !operand.exact && operand.soup.convexity == Soup::Convexity::Known;
+  }
+
+  // The hull of the sums, in double, of the corners that were cut.
+  static Outcome sum_of_convex(const Outcome& a, const Outcome& b) {
+    if (!is_convex_as_written(a) || !is_convex_as_written(b)) {
+      refuse("'minkowski' of bodies other than convex ones, whose parts it rounds,");
+    }
+    const std::vector<DoublePoint> first = cut_corners(a.soup);
+    const std::vector<DoublePoint> second = cut_corners(b.soup);
+    if (!second.empty() && first.size() > minkowski_point_limit / second.size()) {
+      throw Error(ErrorId::TooLarge,
+                  {"more than " + std::to_string(minkowski_point_limit) + " sums of points", ""});
+    }
+    std::vector<DoublePoint> sums;
+    for (const auto& p : first) {
+      for (const auto& q : second) sums.push_back({p[0] + q[0], p[1] + q[1], p[2] + q[2]});
+    }
+    Outcome result;
+    result.node = a.node;
+    result.dimension = 3;
+    result.soup = hull_soup(sums);
+    return result;
   }
 
   static std::vector<DoublePoint> corners_of(const Solid& hull) {
@@ -416,15 +483,17 @@ class GridBuilder {
   }
 
   Outcome projection(std::uint32_t node, std::span<const Outcome> operands) {
-    if (!read_projection_cut(tree_, node, warnings_)) {
-      refuse("'projection' without cut, whose facets it unites one by one,");
-    }
+    const bool cut = read_projection_cut(tree_, node, warnings_);
     std::vector<Outcome> solids;
     for (const Outcome& operand : operands) {
       if (operand.dimension == 3) solids.push_back(operand);
     }
     Outcome result;
     result.dimension = 2;
+    if (!cut) {
+      result.planar = shadow_of(solids);
+      return result;
+    }
     const Outcome whole = unite(solids);
     if (whole.is_empty()) return result;
     for (const auto& path : resolve(section(exact(whole))).paths) {
@@ -435,6 +504,33 @@ class GridBuilder {
       outline.positive = is_counter_clockwise(outline);
     }
     return result;
+  }
+
+  static DoubleFigure shadow_of(std::span<const Outcome> solids) {
+    std::vector<DoubleFigure> facets;
+    for (const Outcome& solid : solids) {
+      if (solid.is_empty()) continue;
+      if (!is_convex_as_written(solid)) {
+        refuse(
+            "'projection' without cut of bodies other than convex ones, whose facets it unites,");
+      }
+      facets.push_back(facets_from_above(hull_of_points(points_of(solid.soup))));
+    }
+    return united_shadows(facets);
+  }
+
+  static DoubleFigure facets_from_above(const Solid& hull) {
+    DoubleFigure figure;
+    if (!hull.is_primitive()) return figure;
+    const Polyhedron& shape = *std::get<ConvexPolytope>(hull.primitive().shape).polyhedron;
+    for (const auto& facet : shape.facets) {
+      DoubleOutline& outline = figure.outlines.emplace_back();
+      for (const std::uint32_t v : facet) {
+        const Point3& p = shape.vertices[v];
+        outline.vertices.push_back({nearest_double(p.x), nearest_double(p.y)});
+      }
+    }
+    return figure;
   }
 
   Outcome resized(std::uint32_t node, std::span<const Outcome> operands) {

@@ -258,6 +258,8 @@ Soup transformed(const DoubleMap& map, Soup soup) {
   return soup;
 }
 
+std::vector<DoublePoint> cut_corners(const Soup& soup) { return cut(soup).doubles; }
+
 Solid cut_to_grid(const Soup& soup) {
   CutSoup cut_soup = cut(soup);
   if (cut_soup.points.size() < 4) return Solid::empty();

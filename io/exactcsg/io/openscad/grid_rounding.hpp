@@ -50,6 +50,9 @@ double determinant(const DoubleMap& map);
 // In double, in the order of operations of a 4 x 4 matrix by column; facets turned if it mirrors.
 Soup transformed(const DoubleMap& map, Soup soup);
 
+// The soup's corners, each once, as they are cut where it becomes an operand.
+std::vector<DoublePoint> cut_corners(const Soup& soup);
+
 // The operand that the soup becomes. Empty if nothing of it is left.
 // THROWS Error(UnsupportedNode) as said above, and what make_mesh throws.
 Solid cut_to_grid(const Soup& soup);
