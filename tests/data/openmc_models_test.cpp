@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <numbers>
 #include <ostream>
 #include <random>
 #include <set>
@@ -196,6 +197,37 @@ TEST(OpenMcModels, CleanOnesHaveNoGapAndNoOverlapAtRandomPoints) {
       }
       const PointVerdict verdict = locator(Point(x)).verdict;
       EXPECT_TRUE(verdict == InCell || verdict == OnBoundary) << name << " " << k;
+    }
+  }
+}
+
+// LAW location.5 where doubles do not decide: points on walls and at corners and centres of
+// elements, on surfaces and on planes of symmetry, beside points that they decide.
+TEST(OpenMcModels, LocatorAgreesWithLocateAtDegeneratePoints) {
+  struct Steps {
+    const char* model;
+    std::array<Rational, 3> step;
+    int reach;
+  };
+  // A quarter of a hexagon's side and height, of lattices whose pitch is 1.2.
+  const Rational across = rational_of(std::numbers::sqrt3 / 2) * Rational(1, 5);
+  const Steps models[] = {
+      {"assembly_17x17", {Rational(63, 200), Rational(63, 200), 60}, 40},
+      {"assembly_17x17_wrong_pitch", {Rational(5, 16), Rational(5, 16), 60}, 36},
+      {"layered_lattice", {Rational(1, 8), Rational(1, 8), Rational(1, 8)}, 18},
+      {"hexagonal_core", {across, Rational(3, 10), 25}, 80},
+      {"hexagonal_core", {Rational(3, 10), across, 25}, 80},
+      {"turned_units", {1, 1, 1}, 20}};
+  std::mt19937 random(20261122);
+  for (const Steps& steps : models) {
+    const Model model = read(steps.model);
+    const PointLocator locator(model);
+    std::uniform_int_distribution<int> count(-steps.reach, steps.reach);
+    for (int k = 0; k < 300; ++k) {
+      domain::Coordinates<3> x;
+      for (std::size_t i = 0; i < 3; ++i) x[i] = count(random) * steps.step[i];
+      const Point point(x);
+      EXPECT_EQ(locator(point), locate(model, point)) << steps.model << " " << k;
     }
   }
 }

@@ -53,8 +53,14 @@ std::vector<Id> ids_of(const std::vector<Item>& items, const std::vector<Index>&
   for (const Index index : indices) ids.push_back(items[index].id);
   return ids;
 }
+// At most so many by id.
+constexpr std::size_t most_ids = 20;
+
 std::string cells_text(const Model& model, const std::vector<Index>& cells) {
-  return list_of("cell", "cells", ids_of(model.cells, cells));
+  std::vector<Id> ids = ids_of(model.cells, cells);
+  if (ids.size() <= most_ids) return list_of("cell", "cells", ids);
+  ids.resize(most_ids);
+  return fmt::format("{} and {} more", list_of("cell", "cells", ids), cells.size() - most_ids);
 }
 
 std::string title_of(const Model& model, const Defect& defect) {

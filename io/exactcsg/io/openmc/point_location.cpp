@@ -8,10 +8,13 @@
 #include <limits>
 #include <utility>
 
+#include "exactcsg/csg/membership.hpp"
 #include "exactcsg/csg/prune.hpp"
 #include "exactcsg/csg/walk.hpp"
 #include "exactcsg/domain/classify.hpp"
+#include "exactcsg/io/openmc/lattice_filter.hpp"
 #include "exactcsg/io/openmc/lattices.hpp"
+#include "exactcsg/io/openmc/surface_filter.hpp"
 #include "exactcsg/io/openmc/surfaces.hpp"
 
 namespace exactcsg::io::openmc {
@@ -35,35 +38,41 @@ std::string text_of(const Model& model, const Step& step) {
                                     : fmt::format(" ({}, {})", i, j));
 }
 
-struct Candidate {
-  Index cell;
-  HalfSpaceRegion region;
-};
-
 // What is known of a point in one universe.
 struct Found {
   std::vector<Index> cells;
   bool is_on_boundary = false;
 };
 
-void ask(const Candidate& candidate, const Point& point, Found& found) {
-  const PointClass result = domain::classify(candidate.region, point);
+void ask(Index cell, const HalfSpaceRegion& region, const Point& point, Found& found) {
+  const PointClass result = domain::classify(region, point);
   if (result == PointClass::Out) return;
-  found.cells.push_back(candidate.cell);
+  found.cells.push_back(cell);
   found.is_on_boundary = found.is_on_boundary || result == PointClass::On;
 }
 
-// Follows fills downwards. find(universe, point) -> Found
-template <class Find>
-Location descend(const Model& model, Point point, Find&& find) {
+// Where a step into a lattice leads.
+struct LatticeStep {
+  bool is_on_boundary = false;
+  std::optional<std::array<std::int64_t, 3>> element;
+  std::optional<Index> universe;
+};
+
+// Follows fills downwards. nullopt where the walk does not decide.
+//   walk.find(universe) -> optional<Found>          walk.enter(cell)       into its fill
+//   walk.enter_lattice(index) -> optional<LatticeStep>
+template <class Walk>
+std::optional<Location> descend(const Model& model, Walk&& walk) {
   Location result;
+  result.path.reserve(4);
   Index universe = model.root;
   for (;;) {
     result.path.push_back({StepKind::Universe, universe, std::nullopt});
-    Found found = find(universe, point);
-    result.cells = std::move(found.cells);
-    if (found.is_on_boundary || result.cells.size() != 1) {
-      result.verdict = found.is_on_boundary   ? PointVerdict::OnBoundary
+    std::optional<Found> found = walk.find(universe);
+    if (!found) return std::nullopt;
+    result.cells = std::move(found->cells);
+    if (found->is_on_boundary || result.cells.size() != 1) {
+      result.verdict = found->is_on_boundary  ? PointVerdict::OnBoundary
                        : result.cells.empty() ? PointVerdict::InGap
                                               : PointVerdict::InOverlap;
       return result;
@@ -74,21 +83,45 @@ Location descend(const Model& model, Point point, Find&& find) {
       result.verdict = PointVerdict::InCell;
       return result;
     }
-    if (cell.to_fill) point = domain::apply(*cell.to_fill, point);
+    walk.enter(result.cells.front());
     universe = cell.filled_with;
     if (cell.fill != FillKind::Lattice) continue;
-    LatticePlace place = place_in(model.lattices[cell.filled_with], point);
-    result.path.push_back({StepKind::Lattice, cell.filled_with, place.element});
-    if (place.is_on_boundary || !place.universe) {
-      result.verdict = place.is_on_boundary ? PointVerdict::OnBoundary : PointVerdict::InGap;
-      if (place.is_on_boundary) result.path.back().element.reset();
+    const std::optional<LatticeStep> step = walk.enter_lattice(cell.filled_with);
+    if (!step) return std::nullopt;
+    result.path.push_back({StepKind::Lattice, cell.filled_with, step->element});
+    if (step->is_on_boundary || !step->universe) {
+      result.verdict = step->is_on_boundary ? PointVerdict::OnBoundary : PointVerdict::InGap;
+      if (step->is_on_boundary) result.path.back().element.reset();
       result.cells.clear();
       return result;
     }
-    universe = *place.universe;
-    point = std::move(place.local);
+    universe = *step->universe;
   }
 }
+
+// In rational coordinates. find(universe, point) -> Found
+template <class Find>
+class ExactWalk {
+ public:
+  ExactWalk(const Model& model, const Point& point, Find find)
+      : model_(model), point_(point), find_(std::move(find)) {}
+
+  std::optional<Found> find(Index universe) { return find_(universe, point_); }
+  void enter(Index cell) {
+    const auto& map = model_.cells[cell].to_fill;
+    if (map) point_ = domain::apply(*map, point_);
+  }
+  std::optional<LatticeStep> enter_lattice(Index lattice) {
+    LatticePlace place = place_in(model_.lattices[lattice], point_);
+    point_ = std::move(place.local);
+    return LatticeStep{place.is_on_boundary, place.element, place.universe};
+  }
+
+ private:
+  const Model& model_;
+  Point point_;
+  Find find_;
+};
 
 // Rough extents of the surfaces of some cells, widened; where none is bounded along an axis, the
 // axis is not divided.
@@ -126,96 +159,138 @@ Frame frame_of(const Model& model, const Universe& universe) {
   return frame;
 }
 
-// A surface's polynomial in doubles, for its range over a frame. [Certified]
-class SurfaceRange {
+// How a coordinate compares with a double; nullopt if the errors are too large to tell.
+std::optional<Sign> certain_comparison(const CertifiedDouble& x, double value) {
+  const double difference = x.value - value;
+  if (!(std::abs(difference) > x.error * (1 + 0x1p-50))) return std::nullopt;
+  return sign_of(difference > 0 ? 1 : -1);
+}
+Sign compare(const Point& point, std::size_t axis, double value) {
+  const std::optional<Sign> sign = certain_comparison(point.approximate()[axis], value);
+  return sign ? *sign : sign_of(cmp(point[axis], rational_of(value)));
+}
+
+csg::Membership membership_near(const SurfaceSide& side, const std::vector<SurfaceFilter>& filters,
+                                const CertifiedPoint& point) {
+  return domain::detail::complement_if(side.is_positive, filters[side.surface].classify(point));
+}
+
+// Cells' regions, for points that come in millions: what is read of most of them is in one piece.
+class CandidateTable {
  public:
-  explicit SurfaceRange(const HalfSpace& half_space) {
-    const domain::Quadric<3>& f = half_space.polynomial();
-    constant_ = nearest_double(f.linear().constant);
-    for (std::size_t i = 0; i < 3; ++i) {
-      linear_[i] = nearest_double(f.linear().normal[i]);
-      for (std::size_t j = 0; j < 3; ++j) square_[i][j] = nearest_double(f.square()[i][j]);
+  struct Range {
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
+
+  std::size_t size() const { return candidates_.size(); }
+
+  void add(const Model& model, Index cell, const Region& region) {
+    Candidate candidate{cell, false, sides_.size(), sides_.size()};
+    const auto is_side = [](const Region& part) { return part.is_primitive(); };
+    if (region.is_full() || is_side(region)) {
+      candidate.is_intersection = true;
+    } else if (region.is_compose()) {
+      candidate.is_intersection =
+          region.operation() == csg::BooleanOperator::Intersection &&
+          std::all_of(region.children().begin(), region.children().end(), is_side);
+    }
+    if (candidate.is_intersection) {
+      csg::for_each_primitive(region, [&](const SurfaceSide& side) { sides_.push_back(side); });
+    }
+    candidate.last_side = sides_.size();
+    candidates_.push_back(candidate);
+    regions_.push_back({region, half_spaces(model, region)});
+  }
+
+  void ask(const Range& range, const Point& point, Found& found) const {
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      openmc::ask(candidates_[i].cell, regions_[i].half_spaces, point, found);
     }
   }
 
-  // Of f <= 0. In and Out are certain.
-  csg::Membership classify(const Frame& frame) const {
-    double low = constant_;
-    double high = 0;  // above low
-    double magnitude = std::abs(constant_);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double middle = 0.5 * (frame.lower[i] + frame.upper[i]);
-      const double reach = 0.5 * (frame.upper[i] - frame.lower[i]);
-      const double far = std::abs(middle) + reach;
-      double slope = linear_[i];
-      low += linear_[i] * middle;
-      magnitude += std::abs(linear_[i]) * far;
-      for (std::size_t j = 0; j < 3; ++j) {
-        const double other = 0.5 * (frame.lower[j] + frame.upper[j]);
-        const double other_reach = 0.5 * (frame.upper[j] - frame.lower[j]);
-        slope += 2 * square_[i][j] * other;
-        low += square_[i][j] * middle * other;
-        magnitude += 4 * std::abs(square_[i][j]) * far * (std::abs(other) + other_reach);
-        if (i == j) continue;
-        const double mixed = std::abs(square_[i][j]) * reach * other_reach;
-        low -= mixed;
-        high += 2 * mixed;
-      }
-      const auto [least, greatest] = range_along(square_[i][i], slope, reach);
-      low += least;
-      high += greatest - least;
+  // False if the errors are too large to tell.
+  bool ask(const Range& range, const CertifiedPoint& point,
+           const std::vector<SurfaceFilter>& filters, Found& found) const {
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      const csg::Membership at = membership_near(i, point, filters);
+      if (at == csg::Membership::Unknown) return false;
+      if (at == csg::Membership::In) found.cells.push_back(candidates_[i].cell);
     }
-    // Some fifty roundings of terms whose sum of magnitudes this is: far below a part in 10^12.
-    const double slack = 1e-12 * magnitude + 1e-300;
-    if (low > slack) return csg::Membership::Out;
-    return low + high < -slack ? csg::Membership::In : csg::Membership::Unknown;
+    return true;
   }
 
  private:
-  // Of a t^2 + b t for |t| <= reach.
-  static std::array<double, 2> range_along(double a, double b, double reach) {
-    const double square = a * reach * reach;
-    const double sides = std::abs(b) * reach;
-    std::array<double, 2> range{square - sides, square + sides};
-    if (std::abs(b) < 2 * std::abs(a) * reach) range[a > 0 ? 0 : 1] = -b * b / (4 * a);
-    return range;
+  struct Candidate {
+    Index cell;
+    bool is_intersection;  // of sides, which are these
+    std::size_t first_side;
+    std::size_t last_side;
+  };
+  struct Regions {
+    Region sides;
+    HalfSpaceRegion half_spaces;  // the same
+  };
+
+  csg::Membership membership_near(std::size_t index, const CertifiedPoint& point,
+                                  const std::vector<SurfaceFilter>& filters) const {
+    const Candidate& candidate = candidates_[index];
+    if (!candidate.is_intersection) {
+      return csg::membership_of(regions_[index].sides, [&](const SurfaceSide& side) {
+        return openmc::membership_near(side, filters, point);
+      });
+    }
+    csg::Membership result = csg::Membership::In;
+    for (std::size_t i = candidate.first_side; i < candidate.last_side; ++i) {
+      const csg::Membership at = openmc::membership_near(sides_[i], filters, point);
+      if (at == csg::Membership::Out) return at;
+      if (at == csg::Membership::Unknown) result = at;
+    }
+    return result;
   }
 
-  double constant_ = 0;
-  std::array<double, 3> linear_{};
-  std::array<std::array<double, 3>, 3> square_{};
+  std::vector<Candidate> candidates_;
+  std::vector<SurfaceSide> sides_;
+  std::vector<Regions> regions_;
 };
-
-// How a coordinate compares with a double.
-Sign compare(const Point& point, std::size_t axis, double value) {
-  const CertifiedDouble& x = point.approximate()[axis];
-  const double difference = x.value - value;
-  if (std::abs(difference) > x.error * (1 + 0x1p-50)) return sign_of(difference > 0 ? 1 : -1);
-  return sign_of(cmp(point[axis], rational_of(value)));
-}
 
 // A universe's space in halves, each with its cells' regions pruned to it. What is pruned to a box
 // says nothing about points on its walls: these, like those outside, are asked of all cells.
 class UniverseIndex {
  public:
-  UniverseIndex(const Model& model, const std::vector<SurfaceRange>& ranges,
+  UniverseIndex(const Model& model, const std::vector<SurfaceFilter>& filters,
                 const Universe& universe) {
     std::vector<Piece> pieces;
     for (const Index cell : universe.cells) pieces.push_back({cell, model.cells[cell].region});
-    all_ = candidates_of(model, pieces);
+    all_ = entered(model, pieces);
     if (size_of(pieces) > few_surfaces) {
-      divide(model, ranges, frame_of(model, universe), std::move(pieces));
+      divide(model, filters, frame_of(model, universe), std::move(pieces));
     }
   }
 
   Found find(const Point& point) const {
     Found found;
-    for (const Candidate& candidate : candidates(point)) ask(candidate, point, found);
+    const auto* candidates = leaf([&](std::size_t axis, double wall) {
+      return std::optional<Sign>(compare(point, axis, wall));
+    });
+    table_.ask(*candidates, point, found);
+    return found;
+  }
+
+  // nullopt if the errors are too large to tell.
+  std::optional<Found> find(const CertifiedPoint& point,
+                            const std::vector<SurfaceFilter>& filters) const {
+    const auto* candidates =
+        leaf([&](std::size_t axis, double wall) { return certain_comparison(point[axis], wall); });
+    Found found;
+    if (candidates == nullptr || !table_.ask(*candidates, point, filters, found)) {
+      return std::nullopt;
+    }
     return found;
   }
 
  private:
-  static constexpr std::uint64_t few_surfaces = 12;
+  static constexpr std::uint64_t few_surfaces = 6;
   static constexpr unsigned most_divisions = 40;
   static constexpr unsigned most_divisions_in_vain = 3;
 
@@ -228,7 +303,7 @@ class UniverseIndex {
     std::size_t axis = 0;
     double wall = 0;
     std::size_t children = 0;  // the lower one, the upper one follows; 0: a leaf
-    std::vector<Candidate> candidates;
+    CandidateTable::Range candidates;
   };
   struct Task {
     std::size_t node;
@@ -244,21 +319,18 @@ class UniverseIndex {
     return size;
   }
 
-  static std::vector<Candidate> candidates_of(const Model& model,
-                                              const std::vector<Piece>& pieces) {
-    std::vector<Candidate> result;
-    for (const Piece& piece : pieces) {
-      result.push_back({piece.cell, half_spaces(model, piece.region)});
-    }
-    return result;
+  CandidateTable::Range entered(const Model& model, const std::vector<Piece>& pieces) {
+    const std::size_t first = table_.size();
+    for (const Piece& piece : pieces) table_.add(model, piece.cell, piece.region);
+    return {first, table_.size()};
   }
 
-  static std::vector<Piece> pruned(const std::vector<SurfaceRange>& ranges,
+  static std::vector<Piece> pruned(const std::vector<SurfaceFilter>& filters,
                                    const std::vector<Piece>& pieces, const Frame& frame) {
     std::vector<Piece> result;
     for (const Piece& piece : pieces) {
       Region region = csg::prune(piece.region, [&](const SurfaceSide& side) {
-        const csg::Membership negative = ranges[side.surface].classify(frame);
+        const csg::Membership negative = filters[side.surface].classify(frame.lower, frame.upper);
         if (!side.is_positive || negative == csg::Membership::Unknown) return negative;
         return negative == csg::Membership::In ? csg::Membership::Out : csg::Membership::In;
       });
@@ -276,7 +348,7 @@ class UniverseIndex {
     std::uint64_t size = 0;  // of both
   };
 
-  static Division division(const std::vector<SurfaceRange>& ranges, const Frame& frame,
+  static Division division(const std::vector<SurfaceFilter>& filters, const Frame& frame,
                            const std::vector<Piece>& pieces, std::size_t axis) {
     Division result;
     result.axis = axis;
@@ -285,79 +357,88 @@ class UniverseIndex {
     result.frames[0].upper[axis] = result.wall;
     result.frames[1].lower[axis] = result.wall;
     for (std::size_t half = 0; half < 2; ++half) {
-      result.pieces[half] = pruned(ranges, pieces, result.frames[half]);
+      result.pieces[half] = pruned(filters, pieces, result.frames[half]);
       result.size += size_of(result.pieces[half]);
     }
     return result;
   }
 
   // The one that leaves the least.
-  static std::optional<Division> best_division(const std::vector<SurfaceRange>& ranges,
+  static std::optional<Division> best_division(const std::vector<SurfaceFilter>& filters,
                                                const Task& task) {
     std::optional<Division> best;
     const Frame& frame = task.frame;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double extent = frame.upper[axis] - frame.lower[axis];
       if (!frame.is_divided[axis] || !(extent > 1e-9 * std::abs(frame.upper[axis]))) continue;
-      Division tried = division(ranges, frame, task.pieces, axis);
+      Division tried = division(filters, frame, task.pieces, axis);
       if (!best || tried.size < best->size) best = std::move(tried);
     }
     return best;
   }
 
-  void divide(const Model& model, const std::vector<SurfaceRange>& ranges, const Frame& frame,
+  void divide(const Model& model, const std::vector<SurfaceFilter>& filters, const Frame& frame,
               std::vector<Piece> pieces) {
     frame_ = frame;
     nodes_.emplace_back();
     std::vector<Task> pending;
-    pending.push_back({0, frame, pruned(ranges, pieces, frame), 0, 0});
+    pending.push_back({0, frame, pruned(filters, pieces, frame), 0, 0});
     while (!pending.empty()) {
       const Task task = std::move(pending.back());
       pending.pop_back();
-      if (!divide_node(ranges, task, pending)) {
-        nodes_[task.node].candidates = candidates_of(model, task.pieces);
+      if (!divide_node(filters, task, pending)) {
+        nodes_[task.node].candidates = entered(model, task.pieces);
       }
     }
   }
 
   // False if the node is to be a leaf.
-  bool divide_node(const std::vector<SurfaceRange>& ranges, const Task& task,
+  bool divide_node(const std::vector<SurfaceFilter>& filters, const Task& task,
                    std::vector<Task>& pending) {
     const std::uint64_t size = size_of(task.pieces);
     if (size <= few_surfaces || task.depth == most_divisions ||
         task.in_vain == most_divisions_in_vain) {
       return false;
     }
-    std::optional<Division> best = best_division(ranges, task);
+    std::optional<Division> best = best_division(filters, task);
     if (!best) return false;
     nodes_[task.node] = {best->axis, best->wall, nodes_.size(), {}};
+    // Nothing on one side: the frame was too wide there, which is neither in vain nor a success.
+    const bool is_narrower =
+        10 * std::min(size_of(best->pieces[0]), size_of(best->pieces[1])) <= size;
     for (std::size_t half = 0; half < 2; ++half) {
       const bool is_smaller = size_of(best->pieces[half]) * 10 <= size * 9;
+      const unsigned in_vain = is_smaller ? 0 : task.in_vain + (is_narrower ? 0 : 1);
       pending.push_back({nodes_.size(), best->frames[half], std::move(best->pieces[half]),
-                         task.depth + 1, is_smaller ? 0 : task.in_vain + 1});
+                         task.depth + 1, in_vain});
       nodes_.emplace_back();
     }
     return true;
   }
 
-  const std::vector<Candidate>& candidates(const Point& point) const {
-    if (nodes_.empty()) return all_;
+  // compare(axis, wall) -> optional<Sign> says on which side of a wall the point is. nullptr if it
+  // does not say.
+  template <class Compare>
+  const CandidateTable::Range* leaf(Compare&& compare_with) const {
+    if (nodes_.empty()) return &all_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (compare(point, axis, frame_.lower[axis]) != Sign::Positive ||
-          compare(point, axis, frame_.upper[axis]) != Sign::Negative) {
-        return all_;
-      }
+      const std::optional<Sign> below = compare_with(axis, frame_.lower[axis]);
+      const std::optional<Sign> above = compare_with(axis, frame_.upper[axis]);
+      if (!below || !above) return nullptr;
+      if (*below != Sign::Positive || *above != Sign::Negative) return &all_;
     }
     const Node* node = nodes_.data();
     while (node->children != 0) {
-      const Sign side = compare(point, node->axis, node->wall);
-      if (side == Sign::Zero) return all_;
-      node = &nodes_[node->children + (side == Sign::Positive ? 1 : 0)];
+      const std::optional<Sign> side = compare_with(node->axis, node->wall);
+      if (!side) return nullptr;
+      if (*side == Sign::Zero) return &all_;
+      node = &nodes_[node->children + (*side == Sign::Positive ? 1 : 0)];
     }
-    return node->candidates;
+    return &node->candidates;
   }
 
-  std::vector<Candidate> all_;
+  CandidateTable table_;
+  CandidateTable::Range all_;
   Frame frame_{};
   std::vector<Node> nodes_;
 };
@@ -371,23 +452,65 @@ std::string path_text(const Model& model, const std::vector<Step>& path) {
 }
 
 Location locate(const Model& model, const Point& point) {
-  return descend(model, point, [&](Index universe, const Point& local) {
-    Found found;
-    for (const Index cell : model.universes[universe].cells) {
-      ask({cell, half_spaces(model, model.cells[cell].region)}, local, found);
-    }
-    return found;
-  });
+  return *descend(model, ExactWalk(model, point, [&](Index universe, const Point& local) {
+                    Found found;
+                    for (const Index cell : model.universes[universe].cells) {
+                      ask(cell, half_spaces(model, model.cells[cell].region), local, found);
+                    }
+                    return found;
+                  }));
 }
 
 struct PointLocator::Data {
   explicit Data(const Model& m) : model(&m) {
-    std::vector<SurfaceRange> ranges;
-    for (const Surface& surface : m.surfaces) ranges.emplace_back(surface.negative);
-    for (const Universe& universe : m.universes) universes.emplace_back(m, ranges, universe);
+    for (const Surface& surface : m.surfaces) surfaces.emplace_back(surface.negative);
+    for (const Universe& universe : m.universes) universes.emplace_back(m, surfaces, universe);
+    for (const Lattice& lattice : m.lattices) lattices.emplace_back(lattice);
+    for (const Cell& cell : m.cells) {
+      maps.emplace_back();
+      for (std::size_t i = 0; i < 3 && cell.to_fill; ++i) {
+        for (std::size_t j = 0; j < 4; ++j) {
+          maps.back()[i][j] = certified_double_of(cell.to_fill->m[i][j]);
+        }
+      }
+    }
   }
   const Model* model;
+  std::vector<SurfaceFilter> surfaces;
   std::vector<UniverseIndex> universes;
+  std::vector<LatticeFilter> lattices;
+  // Of each cell, to its fill, if it has such a map.
+  std::vector<std::array<std::array<CertifiedDouble, 4>, 3>> maps;
+
+  // In doubles with their errors, which decide most points.
+  class Walk {
+   public:
+    Walk(const Data& data, const CertifiedPoint& point) : data_(data), point_(point) {}
+
+    std::optional<Found> find(Index universe) {
+      return data_.universes[universe].find(point_, data_.surfaces);
+    }
+    void enter(Index cell) {
+      if (!data_.model->cells[cell].to_fill) return;
+      const auto& map = data_.maps[cell];
+      CertifiedPoint image;
+      for (std::size_t i = 0; i < 3; ++i) {
+        image[i] = map[i][3];
+        for (std::size_t j = 0; j < 3; ++j) image[i] = image[i] + map[i][j] * point_[j];
+      }
+      point_ = image;
+    }
+    std::optional<LatticeStep> enter_lattice(Index lattice) {
+      const std::optional<FilteredPlace> place = data_.lattices[lattice].place(point_);
+      if (!place) return std::nullopt;
+      point_ = place->local;
+      return LatticeStep{false, place->element, place->universe};
+    }
+
+   private:
+    const Data& data_;
+    CertifiedPoint point_;
+  };
 };
 
 PointLocator::PointLocator(const Model& model) : data_(std::make_unique<const Data>(model)) {}
@@ -396,9 +519,13 @@ PointLocator::PointLocator(PointLocator&&) noexcept = default;
 PointLocator& PointLocator::operator=(PointLocator&&) noexcept = default;
 
 Location PointLocator::operator()(const Point& point) const {
-  return descend(*data_->model, point, [&](Index universe, const Point& local) {
-    return data_->universes[universe].find(local);
-  });
+  if (auto location = descend(*data_->model, Data::Walk(*data_, point.approximate()))) {
+    return *std::move(location);
+  }
+  return *descend(*data_->model,
+                  ExactWalk(*data_->model, point, [&](Index universe, const Point& local) {
+                    return data_->universes[universe].find(local);
+                  }));
 }
 
 }  // namespace exactcsg::io::openmc
