@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Curved solids whose volumes have closed forms, each derived where it stands.
+// Curved solids whose volumes, and the areas of most, have closed forms, each derived where it
+// stands.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +53,7 @@ struct KnownSolid {
   Solid3 set;
   Box<3> box;
   double volume;
+  std::optional<double> area = std::nullopt;
 };
 
 inline std::vector<KnownSolid> known_solids() {
@@ -63,38 +66,46 @@ inline std::vector<KnownSolid> known_solids() {
   const Solid3 along_x = cylinder(0, 1);
   const Solid3 along_y = cylinder(1, 1);
   const Solid3 along_z = cylinder(2, 1);
-  all.push_back({"ball", unit_ball, cube(2), 4 * pi / 3});
-  // Every section across y is a square of side 2 sqrt(1 - y^2): the integral of 4 (1 - y^2).
-  all.push_back({"two cylinders", intersect(along_x, along_z), cube(2), 16.0 / 3});
-  // A cube of side sqrt 2, and six caps, the part of two cylinders beyond 1/sqrt 2 each.
+  all.push_back({"ball", unit_ball, cube(2), 4 * pi / 3, 4 * pi});
+  // Every section across y is a square of side 2 sqrt(1 - y^2): the integral of 4 (1 - y^2). A ball
+  // of radius 1 touches all of the boundary: the area is three times the volume.
+  all.push_back({"two cylinders", intersect(along_x, along_z), cube(2), 16.0 / 3, 16});
+  // A cube of side sqrt 2, and six caps, the part of two cylinders beyond 1/sqrt 2 each. A ball of
+  // radius 1 touches the boundary as above.
   all.push_back({"three cylinders", intersect(intersect(along_x, along_y), along_z), cube(2),
-                 8 * (2 - std::numbers::sqrt2)});
+                 8 * (2 - std::numbers::sqrt2), 24 * (2 - std::numbers::sqrt2)});
   // The complete elliptic integral of the section's width, evaluated to 18 digits.
   all.push_back({"cylinders of radii 3 and 3/2",
                  intersect(cylinder(0, 9), cylinder(2, Rational(9, 4))), cube(4),
                  41.0410796806682577});
-  // The integral of 2 sqrt(1 - r^2) over the disc of diameter 1, in polar coordinates.
+  // The integral of 2 sqrt(1 - r^2) over the disc of diameter 1, in polar coordinates. Of the
+  // sphere 2 pi - 4 are in the cylinder, of the cylinder 4 are in the ball.
   all.push_back({"Viviani",
                  intersect(unit_ball, cylinder(2, Rational(1, 4), point(Rational(1, 2), 0, 0))),
-                 cube(2), 2 * pi / 3 - 8.0 / 9});
-  // Two caps of height 1/2: pi h^2 (3 - h) / 3 each.
-  all.push_back({"lens", intersect(unit_ball, ball(point(1, 0, 0), 1)), cube(2), 5 * pi / 12});
-  // (3 sqrt 2 - 49 pi + 162 arctan sqrt 2) / 12 times the cube of the edge, sqrt 2; 18 digits.
+                 cube(2), 2 * pi / 3 - 8.0 / 9, 2 * pi});
+  // Two caps of height 1/2: pi h^2 (3 - h) / 3 each, and 2 pi h.
+  all.push_back(
+      {"lens", intersect(unit_ball, ball(point(1, 0, 0), 1)), cube(2), 5 * pi / 12, 2 * pi});
+  // (3 sqrt 2 - 49 pi + 162 arctan sqrt 2) / 12 times the cube of the edge, sqrt 2; 18 digits. The
+  // area is (8 pi - 18 arccos(1/3)) times the edge's square: four triangles on spheres.
   Solid3 reuleaux = ball({}, 2);
   for (const Point<3>& centre : {point(1, 1, 0), point(1, 0, 1), point(0, 1, 1)}) {
     reuleaux = intersect(reuleaux, ball(centre, 2));
   }
-  all.push_back({"Reuleaux tetrahedron", reuleaux, cube(3), 1.19404238326616699});
+  all.push_back({"Reuleaux tetrahedron", reuleaux, cube(3), 1.19404238326616699,
+                 2 * (8 * pi - 18 * std::acos(1.0 / 3))});
   // Outside the cube there are six caps of height 1 of a ball of radius 5: pi (15 - 1) / 3 each;
-  // they do not meet, since 4^2 + 4^2 > 5^2.
+  // they do not meet, since 4^2 + 4^2 > 5^2. Their areas are 10 pi each, their discs' 9 pi.
   const Solid3 ball_5 = ball({}, 25);
   const Solid3 cube_8 = domain::make_block(cube(4));
   const double caps = 28 * pi;
-  all.push_back({"ball without cube", subtract(ball_5, cube_8), cube(6), caps});
-  all.push_back({"ball in cube", intersect(ball_5, cube_8), cube(6), 500 * pi / 3 - caps});
-  all.push_back({"ball and cube", unite(ball_5, cube_8), cube(6), 512 + caps});
-  // The napkin ring of height 8: a ball of diameter 8.
-  all.push_back({"ball with a hole", subtract(ball_5, cylinder(2, 9)), cube(6), 256 * pi / 3});
+  all.push_back({"ball without cube", subtract(ball_5, cube_8), cube(6), caps, 114 * pi});
+  all.push_back({"ball in cube", intersect(ball_5, cube_8), cube(6), 500 * pi / 3 - caps, 94 * pi});
+  all.push_back({"ball and cube", unite(ball_5, cube_8), cube(6), 512 + caps, 384 + 6 * pi});
+  // The napkin ring of height 8: a ball of diameter 8; a zone of area 80 pi, and a cylinder's 48
+  // pi.
+  all.push_back(
+      {"ball with a hole", subtract(ball_5, cylinder(2, 9)), cube(6), 256 * pi / 3, 128 * pi});
   // The radius is 3 + 3 z / 10: a cone with its apex at z = -10. Cut by x >= 2 and x >= 4: the
   // integral of the circular segments, evaluated to 15 digits; the rest by the volume 210 pi.
   const Solid3 frustum =
@@ -113,15 +124,15 @@ inline std::vector<KnownSolid> known_solids() {
                  12.7357478956402});
   all.push_back(
       {"tilted cone below 4", intersect(tilted, below({0, 0, 1}, 4)), cube(16), 81.5120317120536});
-  // 4 pi / 3 times the semi-axes 1, 1/2 and 1/3.
+  // 4 pi / 3 times the semi-axes 1, 1/2 and 1/3; the area by elliptic integrals, 17 digits.
   all.push_back({"ellipsoid",
                  solid(domain::make_ellipsoid<3>({}, {1, Rational(1, 4), Rational(1, 9)})), cube(2),
-                 2 * pi / 9});
-  // The tetrahedron in the cube of side 2: a third of it.
+                 2 * pi / 9, 4.4008095646649703});
+  // The tetrahedron in the cube of side 2: a third of it; four triangles of side 2 sqrt 2.
   all.push_back({"tetrahedron",
                  intersect(intersect(below({1, 1, 1}, 1), below({1, -1, -1}, 1)),
                            intersect(below({-1, 1, -1}, 1), below({-1, -1, 1}, 1))),
-                 cube(2), 8.0 / 3});
+                 cube(2), 8.0 / 3, 8 * std::numbers::sqrt3});
   return all;
 }
 

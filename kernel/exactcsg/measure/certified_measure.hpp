@@ -46,7 +46,8 @@ struct MeasureLimits {
   double relative_width = 1e-6;
   std::uint64_t cells = 20'000'000;
   std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
-  // Cells are counted there, and a cancellation ends the work with the bounds reached.
+  // Cells are counted there, and the relative width reached is shown; a cancellation ends the work
+  // with the bounds reached.
   Progress* progress = nullptr;
 };
 
@@ -83,17 +84,64 @@ class PairwiseSum {
 // The clock is asked once for so many cells.
 constexpr std::uint64_t cells_per_look_at_clock = 64;
 
-template <SpatialDomain P>
-class VolumeMeter {
+// The half lengths of a box along its axes from one on, in cyclic order.
+inline std::array<CertifiedDouble, 3> half_lengths(const Box3& box, std::size_t first) {
+  std::array<CertifiedDouble, 3> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t axis = (first + i) % 3;
+    result[i] = certified_double_of(Rational((box.upper()[axis] - box.lower()[axis]) / 2));
+  }
+  return result;
+}
+
+// What IntegralMeter measures: the volume.
+class VolumeMeasure {
  public:
-  VolumeMeter(const csg::BooleanTree<P>& tree, const Box3& box, const MeasureLimits& limits)
-      : limits_(limits), tree_(table_.add(tree)), memberships_(table_) {
+  static constexpr bool is_never_negative = true;
+  // How rectangles are divided: by what their parts would be, or by how surfaces vary.
+  static constexpr bool divides_by_trial = false;
+
+  Rational in_full_cell(const Box3& box) const { return volume_of(box); }
+  // Of any part of the cell.
+  template <SpatialDomain P>
+  CertifiedDouble in_mixed_cell(const SurfaceTable<P>&, const LiteralTree&, const Box3& box) const {
+    return up_to(certified_double_of(volume_of(box)));
+  }
+
+  class InColumn {
+   public:
+    explicit InColumn(const Box3& box)
+        : scale_(certified_double_of(Rational(volume_of(box) / 8))) {}
+    // Of any part of what is over the rectangle.
+    CertifiedDouble of_any_part(const Column&, const Rectangle& r) const {
+      return up_to(exactly(2 * r.area()) * scale_);
+    }
+    CertifiedDouble operator()(const Column& column, const Rectangle& r) const {
+      return column.volume(r) * scale_;
+    }
+
+   private:
+    CertifiedDouble scale_;  // the volume of the cell over that of its own coordinates
+  };
+  InColumn in_column(const Box3& box, const Column&) const { return InColumn(box); }
+};
+
+template <SpatialDomain P, class Measure>
+class IntegralMeter {
+ public:
+  IntegralMeter(const csg::BooleanTree<P>& tree, const Box3& box, const MeasureLimits& limits,
+                Measure measure = {})
+      : limits_(limits),
+        measure_(std::move(measure)),
+        tree_(table_.add(tree)),
+        memberships_(table_) {
     if (limits_.progress != nullptr) limits_.progress->begin("measure", limits_.cells);
     add_cell(box, tree_);
   }
 
   CertifiedMeasure run() {
     for (;;) {
+      if (leaves_.empty()) settle_sums();
       if (width_ <= allowed_width() * (1 + 0x1p-30)) {
         CertifiedMeasure result = bounds(StopReason::Width);
         const Rational width = result.value.upper - result.value.lower;
@@ -109,9 +157,10 @@ class VolumeMeter {
       if (limits_.progress != nullptr && limits_.progress->cancelled()) {
         return bounds(StopReason::Cancelled);
       }
-      if (limits_.deadline && cells_ / cells_per_look_at_clock != looked_at_clock_) {
+      if (cells_ / cells_per_look_at_clock != looked_at_clock_) {
         looked_at_clock_ = cells_ / cells_per_look_at_clock;
-        if (std::chrono::steady_clock::now() >= *limits_.deadline) {
+        show_width();
+        if (limits_.deadline && std::chrono::steady_clock::now() >= *limits_.deadline) {
           return bounds(StopReason::Deadline);
         }
       }
@@ -122,7 +171,7 @@ class VolumeMeter {
  private:
   struct LocalColumn {
     Column column;
-    CertifiedDouble scale;  // the volume of the cell over that of its own coordinates
+    typename Measure::InColumn measure;
   };
   struct LocalCell {
     Box3 box;
@@ -130,11 +179,11 @@ class VolumeMeter {
     AxisPlane cut;
   };
   struct Leaf {
-    CertifiedDouble volume;
+    CertifiedDouble value;
     std::shared_ptr<const LocalColumn> column;
     std::shared_ptr<const LocalCell> cell;  // if there is no column
     Rectangle rectangle;
-    friend bool operator<(const Leaf& a, const Leaf& b) { return a.volume.error < b.volume.error; }
+    friend bool operator<(const Leaf& a, const Leaf& b) { return a.value.error < b.value.error; }
   };
 
   double allowed_width() const {
@@ -147,22 +196,22 @@ class VolumeMeter {
     memberships_.enter(box);
     LiteralTree tree = csg::prune(above, memberships_);
     if (tree.is_empty()) return;
-    const Rational volume = volume_of(box);
     if (tree.is_full()) {
-      full_ += volume;
-      approximate_full_ += nearest_double(volume);
+      const Rational value = measure_.in_full_cell(box);
+      full_ += value;
+      approximate_full_ += nearest_double(value);
       return;
     }
     const std::optional<AxisPlane> cut = axis_cut(table_, tree, box);
     if (std::optional<Column> column = cut ? std::nullopt : column_of(table_, tree, box)) {
+      auto local_measure = measure_.in_column(box, *column);
       const auto local = std::make_shared<const LocalColumn>(
-          LocalColumn{std::move(*column), certified_double_of(Rational(volume / 8))});
+          LocalColumn{std::move(*column), std::move(local_measure)});
       return add_rectangle(local, Rectangle());
     }
-    const CertifiedDouble half = certified_double_of(Rational(volume / 2));
     DividingAxis axis(box);
     axis.add(table_, tree, box);
-    push({widened(half, magnitude(half)), nullptr,
+    push({measure_.in_mixed_cell(table_, tree, box), nullptr,
           std::make_shared<const LocalCell>(
               LocalCell{box, std::move(tree), cut ? *cut : axis.bisector(box)}),
           Rectangle()});
@@ -170,34 +219,31 @@ class VolumeMeter {
 
   void add_rectangle(const std::shared_ptr<const LocalColumn>& local, const Rectangle& r) {
     count();
-    const CertifiedDouble whole = exactly(2 * r.area()) * local->scale;
-    CertifiedDouble volume = local->column.volume(r) * local->scale;
-    if (!(volume.error < whole.value / 2)) {  // says nothing; or has overflown
-      const CertifiedDouble half = exactly(0.5) * whole;
-      volume = widened(half, magnitude(half));
-    }
+    const CertifiedDouble any = local->measure.of_any_part(local->column, r);
+    CertifiedDouble value = local->measure(local->column, r);
+    if (!(value.error < any.error)) value = any;  // says nothing; or has overflown
     // Rounding is all that is left, or soon would be.
-    constexpr double negligible = 0x1p-42;
-    if (volume.error <= negligible * whole.value || r.a < 0x1p-40 || r.b < 0x1p-40) {
-      settled_.add(volume);
-      width_ += 2 * volume.error;
-      middle_ += volume.value;
+    constexpr double negligible = 0x1p-41;
+    if (value.error <= negligible * any.error || r.a < 0x1p-40 || r.b < 0x1p-40) {
+      settled_.add(value);
+      width_ += 2 * value.error;
+      middle_ += value.value;
     } else {
-      push({volume, local, nullptr, r});
+      push({value, local, nullptr, r});
     }
   }
 
   void push(Leaf leaf) {
-    width_ += 2 * leaf.volume.error;
-    middle_ += leaf.volume.value;
+    width_ += 2 * leaf.value.error;
+    middle_ += leaf.value.value;
     leaves_.push(std::move(leaf));
   }
 
   void refine() {
     const Leaf leaf = leaves_.top();
     leaves_.pop();
-    width_ -= 2 * leaf.volume.error;
-    middle_ -= leaf.volume.value;
+    width_ -= 2 * leaf.value.error;
+    middle_ -= leaf.value.value;
     if (leaf.column == nullptr) {
       const auto parts = divided(leaf.cell->box, leaf.cell->cut);
       add_cell(parts.first, leaf.cell->tree);
@@ -207,24 +253,55 @@ class VolumeMeter {
     divide(leaf.column, leaf.rectangle);
   }
 
-  // Along both sides, or along one if the heights hardly vary along the other.
   void divide(const std::shared_ptr<const LocalColumn>& column, const Rectangle& r) {
-    constexpr double hardly = 0.25;
-    const std::array<double, 2> variations = column->column.variations(r);
-    const int along_s = variations[0] < hardly * variations[1] ? 1 : 2;
-    const int along_t = variations[1] < hardly * variations[0] ? 1 : 2;
-    const double a = r.a / along_s;
-    const double b = r.b / along_t;
-    for (int i = 0; i < along_s; ++i) {
-      for (int j = 0; j < along_t; ++j) {
-        add_rectangle(column, {r.s - r.a + (2 * i + 1) * a, r.t - r.b + (2 * j + 1) * b, a, b});
+    const std::array<int, 2> parts = Measure::divides_by_trial
+                                         ? parts_by_trial(*column, r)
+                                         : parts_by_variation(column->column, r);
+    for_each_part(r, parts, [&](const Rectangle& part) { add_rectangle(column, part); });
+  }
+
+  template <class Visit>
+  static void for_each_part(const Rectangle& r, const std::array<int, 2>& parts, Visit&& visit) {
+    const double a = r.a / parts[0];
+    const double b = r.b / parts[1];
+    for (int i = 0; i < parts[0]; ++i) {
+      for (int j = 0; j < parts[1]; ++j) {
+        visit(Rectangle{r.s - r.a + (2 * i + 1) * a, r.t - r.b + (2 * j + 1) * b, a, b});
       }
     }
   }
 
+  // Along both sides, or along one if the heights hardly vary along the other.
+  static std::array<int, 2> parts_by_variation(const Column& column, const Rectangle& r) {
+    constexpr double hardly = 0.25;
+    const std::array<double, 2> variations = column.variations(r);
+    return {variations[0] < hardly * variations[1] ? 1 : 2,
+            variations[1] < hardly * variations[0] ? 1 : 2};
+  }
+
+  // Along the side that leaves the less width, or along both if neither leaves much less: where a
+  // surface touches the bottom along a line, heights hardly vary across the line, but what is on
+  // either side of it does.
+  static std::array<int, 2> parts_by_trial(const LocalColumn& column, const Rectangle& r) {
+    const auto error = [&](const std::array<int, 2>& parts) {
+      double sum = 0;
+      for_each_part(r, parts, [&](const Rectangle& part) {
+        sum += column.measure(column.column, part).error;
+      });
+      return sum;
+    };
+    constexpr std::array<int, 2> along_s{2, 1};
+    constexpr std::array<int, 2> along_t{1, 2};
+    constexpr double hardly_less = 0.75;
+    const double error_s = error(along_s);
+    const double error_t = error(along_t);
+    if (std::min(error_s, error_t) > hardly_less * error({1, 1})) return {2, 2};
+    return error_s <= error_t ? along_s : along_t;
+  }
+
   CertifiedDouble sum_of_leaves() const {
     PairwiseSum sum = settled_;
-    for (const Leaf& leaf : leaves_.items()) sum.add(leaf.volume);
+    for (const Leaf& leaf : leaves_.items()) sum.add(leaf.value);
     return sum.total();
   }
   // The running sums have drifted.
@@ -238,9 +315,15 @@ class VolumeMeter {
     const Rational middle = full_ + rational_of(sum.value);
     const Rational error = rational_of(sum.error);
     const Rational lower = middle - error;
-    return {{std::max(lower, full_), Rational(middle + error)}, reason, cells_};
+    return {{Measure::is_never_negative ? std::max(lower, full_) : lower, Rational(middle + error)},
+            reason,
+            cells_};
   }
 
+  void show_width() const {
+    const double lower = approximate_full_ + middle_ - width_ / 2;
+    if (limits_.progress != nullptr && lower > 0) limits_.progress->narrow_to(width_ / lower);
+  }
   void count() {
     ++cells_;
     if (limits_.progress != nullptr) limits_.progress->advance();
@@ -251,6 +334,7 @@ class VolumeMeter {
   };
 
   const MeasureLimits& limits_;
+  const Measure measure_;
   SurfaceTable<P> table_;
   LiteralTree tree_;
   LocalMemberships<P> memberships_;
@@ -269,7 +353,7 @@ class VolumeMeter {
 template <SpatialDomain P>
 CertifiedMeasure volume(const csg::BooleanTree<P>& tree, const domain::Box<3>& box,
                         const MeasureLimits& limits = {}) {
-  return detail::VolumeMeter<P>(tree, box, limits).run();
+  return detail::IntegralMeter<P, detail::VolumeMeasure>(tree, box, limits).run();
 }
 
 }  // namespace exactcsg::measure

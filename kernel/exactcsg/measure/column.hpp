@@ -16,8 +16,18 @@
 // or surfaces that are no proved graphs, the truth is bounded on the slabs between the ranges'
 // ends.
 //
-// LAW column.1  volume(rectangle) encloses the volume over the rectangle, in the unit of the cell's
-//               coordinates, which run from -1 to 1.
+// Integrals of a function over the set go the same way, with the function's antiderivative along
+// the height in the place of the height, and its mean between the two heights as a factor of max(0,
+// D).
+//
+// The boundary is the parts of surfaces where the truth before and after differs: all of the graph
+// of a surface passed in a known order, or none; of two whose ranges overlap, what is on either
+// side of D = 0.
+//
+// LAW column.1  integral(rectangle, quantity) encloses the quantity over the rectangle, in the unit
+//               of the cell's coordinates, which run from -1 to 1.
+// LAW column.2  boundary(rectangle, metric) encloses the measure of what of the surfaces bounds the
+//               set over the rectangle and between bottom and top.
 
 #include <algorithm>
 #include <array>
@@ -72,11 +82,66 @@ inline double mean_of_positive_part(double d, double p, double q) {
   return integral / 2;
 }
 
+// The share of -1 <= u, v <= 1 in which d + p u + q v > 0. REQUIRES p, q >= 0. Its error is below
+// 2^-44.
+inline double share_of_positive(double d, double p, double q) {
+  if (p < q) std::swap(p, q);
+  if (d >= p + q) return 1;
+  if (d <= -p - q) return 0;
+  if (!(p > 0)) return d > 0 ? 1 : 0;
+  // Of u, at one v: linear between these.
+  const auto share = [&](double v) { return std::clamp(0.5 + (d + q * v) / (2 * p), 0.0, 1.0); };
+  const double first = q > 0 ? std::clamp((-p - d) / q, -1.0, 1.0) : -1.0;
+  const double second = q > 0 ? std::clamp((p - d) / q, -1.0, 1.0) : 1.0;
+  const std::array<double, 4> ends{-1.0, first, second, 1.0};
+  double integral = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    integral += (ends[i + 1] - ends[i]) / 2 * (share(ends[i]) + share(ends[i + 1]));
+  }
+  return integral / 2;
+}
+
+// A height over a rectangle: that of a surface, or a constant.
+struct Height {
+  double lower;
+  double upper;
+  std::optional<Graph> graph;
+
+  LinearModel linear_model() const {
+    if (graph) return graph->linear_model();
+    return {exactly(lower), {}, {}, 0};
+  }
+  CertifiedDouble range() const { return between(lower, upper); }
+};
+
+// The volume, as a quantity of Column::integral.
+struct VolumeQuantity {
+  // Of everything below a height, in relation to the height 0.
+  CertifiedDouble below(const Height& height, const Rectangle& r) const {
+    if (height.graph) return height.graph->integral();
+    return exactly(height.lower * 4 * r.a) * exactly(r.b);
+  }
+  // The factor of the integral of (one - two), where that is positive.
+  CertifiedDouble mean_between(const Height&, const Height&, const Rectangle&) const {
+    return exactly(1);
+  }
+  CertifiedDouble between_heights(double from, double to, const Rectangle& r) const {
+    return (exactly(to) - exactly(from)) * exactly(4) * exactly(r.a) * exactly(r.b);
+  }
+  // Of any part of what is between the heights.
+  CertifiedDouble part_between_heights(double from, double to, const Rectangle& r) const {
+    return up_to(between_heights(from, to, r));
+  }
+};
+
 class Column {
  public:
-  // REQUIRES each surface's derivative by the height is positive in the cell.
-  Column(std::vector<UnitQuadric> surfaces, PassedTree tree)
-      : surfaces_(std::move(surfaces)), tree_(std::move(tree)) {}
+  // REQUIRES each surface's derivative by the height, the last coordinate, is positive in the cell.
+  // `axis`: of the box, along which the height is; the others follow it in cyclic order.
+  Column(std::size_t axis, std::vector<UnitQuadric> surfaces, PassedTree tree)
+      : axis_(axis), surfaces_(std::move(surfaces)), tree_(std::move(tree)) {}
+
+  std::size_t axis() const { return axis_; }
 
   // How much the heights vary over the rectangle along its first and its second side, roughly.
   std::array<double, 2> variations(const Rectangle& r) const {
@@ -91,25 +156,29 @@ class Column {
     return result;
   }
 
-  CertifiedDouble volume(const Rectangle& r) const {
-    std::vector<Item> items{Item{bottom, -1, -1, {}}, Item{top, 1, 1, {}}};
-    std::vector<State> states(surfaces_.size(), State::Unpassed);
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) add_item(i, r, items, states);
-    std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-      return a.lower < b.lower || (a.lower == b.lower && a.upper < b.upper);
+  CertifiedDouble volume(const Rectangle& r) const { return integral(r, VolumeQuantity()); }
+
+  template <class Quantity>
+  CertifiedDouble integral(const Rectangle& r, const Quantity& quantity) const {
+    return sum_over_clusters(r, [&](const Item* first, std::size_t count, Situation& situation) {
+      return cluster(first, count, r, situation, quantity);
     });
-    Situation situation{std::move(states), State::Unpassed, State::Unpassed};
-    CertifiedDouble sum;
-    for (std::size_t begin = 0; begin < items.size();) {
-      std::size_t end = begin + 1;
-      double upper = items[begin].upper;
-      while (end < items.size() && items[end].lower < upper) {
-        upper = std::max(upper, items[end++].upper);
-      }
-      sum = sum + cluster(&items[begin], end - begin, r, situation);
-      begin = end;
-    }
-    return sum;
+  }
+
+  // metric(graph) -> its measure, metric.bound(surface, rectangle) -> one that no part of the
+  // surface over the rectangle exceeds.
+  template <class Metric>
+  CertifiedDouble boundary(const Rectangle& r, const Metric& metric) const {
+    return sum_over_clusters(r, [&](const Item* first, std::size_t count, Situation& situation) {
+      return boundary_in_cluster(first, count, r, situation, metric);
+    });
+  }
+
+  template <class Metric>
+  double boundary_bound(const Rectangle& r, const Metric& metric) const {
+    double sum = 0;
+    for (const UnitQuadric& f : surfaces_) sum += metric.bound(f, r);
+    return sum * (1 + 0x1p-40);
   }
 
  private:
@@ -119,10 +188,8 @@ class Column {
 
   struct Item {
     std::uint32_t surface;
-    double lower;
-    double upper;
-    std::optional<Graph> graph;  // none of the bottom and the top, which are constant
-    bool is_known() const { return graph || surface >= bottom; }
+    Height height;  // without graph of the bottom and the top, or where none is known
+    bool is_known() const { return height.graph || surface >= bottom; }
   };
   struct Situation {
     std::vector<State> surfaces;
@@ -132,6 +199,31 @@ class Column {
       return surface == bottom ? bottom_state : surface == top ? top_state : surfaces[surface];
     }
   };
+
+  // visit(first item, count, situation) -> a term, for items whose ranges of height overlap; they
+  // are passed then.
+  template <class Visit>
+  CertifiedDouble sum_over_clusters(const Rectangle& r, Visit&& visit) const {
+    std::vector<Item> items{Item{bottom, {-1, -1, {}}}, Item{top, {1, 1, {}}}};
+    std::vector<State> states(surfaces_.size(), State::Unpassed);
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) add_item(i, r, items, states);
+    std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+      return a.height.lower < b.height.lower ||
+             (a.height.lower == b.height.lower && a.height.upper < b.height.upper);
+    });
+    Situation situation{std::move(states), State::Unpassed, State::Unpassed};
+    CertifiedDouble sum;
+    for (std::size_t begin = 0; begin < items.size();) {
+      std::size_t end = begin + 1;
+      double upper = items[begin].height.upper;
+      while (end < items.size() && items[end].height.lower < upper) {
+        upper = std::max(upper, items[end++].height.upper);
+      }
+      sum = sum + visit(&items[begin], end - begin, situation);
+      begin = end;
+    }
+    return sum;
+  }
 
   void add_item(std::size_t i, const Rectangle& r, std::vector<Item>& items,
                 std::vector<State>& states) const {
@@ -148,11 +240,11 @@ class Column {
       // The graph found is the surface of the cell only if one interval of heights where the
       // derivative is positive has both.
       if (lower <= 1 && upper >= -1) {
-        items.push_back({surface, lower, upper, std::move(graph)});
+        items.push_back({surface, {lower, upper, std::move(graph)}});
         return;
       }
     }
-    items.push_back({surface, lowest(f, r), highest(f, r), std::nullopt});
+    items.push_back({surface, {lowest(f, r), highest(f, r), std::nullopt}});
   }
   // Bounds of where the surface is in the cell, if it is.
   static double lowest(const UnitQuadric& f, const Rectangle& r) {
@@ -190,107 +282,166 @@ class Column {
     return truth(situation) == csg::Membership::In ? 1 : 0;
   }
 
-  // The sum over items [first, first + count), which are then passed.
-  CertifiedDouble cluster(const Item* first, std::size_t count, const Rectangle& r,
-                          Situation& situation) const {
-    if (count == 1 && first->is_known()) return single(*first, r, situation);
-    if (count == 2 && first[0].is_known() && first[1].is_known()) {
-      return pair(first[0], first[1], r, situation);
-    }
-    return slabs(first, count, r, situation);
-  }
-
-  CertifiedDouble single(const Item& item, const Rectangle& r, Situation& situation) const {
-    const int before = definite_truth(situation);
-    situation.of(item.surface) = State::Passed;
-    const int after = definite_truth(situation);
-    return weighted(before - after, item, r);
-  }
-
-  CertifiedDouble pair(const Item& one, const Item& two, const Rectangle& r,
-                       Situation& situation) const {
-    const int none = definite_truth(situation);
+  // The truth when neither of two has been passed, one of them, or both; both are passed then.
+  struct PairTruth {
+    int none;
+    int only_one;
+    int only_two;
+    int both;
+  };
+  PairTruth pass(const Item& one, const Item& two, Situation& situation) const {
+    PairTruth result{};
+    result.none = definite_truth(situation);
     situation.of(one.surface) = State::Passed;
-    const int only_one = definite_truth(situation);
+    result.only_one = definite_truth(situation);
     situation.of(two.surface) = State::Passed;
-    const int both = definite_truth(situation);
+    result.both = definite_truth(situation);
     situation.of(one.surface) = State::Unpassed;
-    const int only_two = definite_truth(situation);
+    result.only_two = definite_truth(situation);
     situation.of(one.surface) = State::Passed;
-    CertifiedDouble sum = weighted(none - only_one, one, r) + weighted(only_one - both, two, r);
-    const int excess = only_one + only_two - none - both;
-    if (excess == 0) return sum;
-    return sum + exactly(excess) * positive_part(one, two, r);
+    return result;
   }
 
-  static CertifiedDouble weighted(int factor, const Item& item, const Rectangle& r) {
-    if (factor == 0) return {};
-    if (item.graph) return exactly(factor) * item.graph->integral();
-    return exactly(factor * item.lower * 4 * r.a) * exactly(r.b);
+  // The sum over items [first, first + count), which are then passed.
+  template <class Quantity>
+  CertifiedDouble cluster(const Item* first, std::size_t count, const Rectangle& r,
+                          Situation& situation, const Quantity& quantity) const {
+    const auto below = [&](int factor, const Item& item) {
+      return factor == 0 ? CertifiedDouble{} : exactly(factor) * quantity.below(item.height, r);
+    };
+    if (count == 1 && first->is_known()) {
+      const int before = definite_truth(situation);
+      situation.of(first->surface) = State::Passed;
+      return below(before - definite_truth(situation), *first);
+    }
+    if (count == 2 && first[0].is_known() && first[1].is_known()) {
+      const PairTruth truth = pass(first[0], first[1], situation);
+      const CertifiedDouble sum = below(truth.none - truth.only_one, first[0]) +
+                                  below(truth.only_one - truth.both, first[1]);
+      const int excess = truth.only_one + truth.only_two - truth.none - truth.both;
+      if (excess == 0) return sum;
+      return sum + exactly(excess) * quantity.mean_between(first[0].height, first[1].height, r) *
+                       positive_part(first[0].height, first[1].height, r);
+    }
+    return slabs(first, count, r, situation, quantity);
   }
 
-  static LinearModel model(const Item& item) {
-    if (item.graph) return item.graph->linear_model();
-    return {exactly(item.lower), {}, {}, 0};
-  }
-  // The integral of max(0, Z1 - Z2).
-  static CertifiedDouble positive_part(const Item& one, const Item& two, const Rectangle& r) {
-    const LinearModel m1 = model(one);
-    const LinearModel m2 = model(two);
+  // One height less the other, as d + p u + q v with -1 <= u, v <= 1.
+  struct Difference {
+    double d;
+    double p;
+    double q;
+    double error;  // of the whole
+  };
+  static Difference difference(const Height& one, const Height& two, const Rectangle& r) {
+    const LinearModel m1 = one.linear_model();
+    const LinearModel m2 = two.linear_model();
     const CertifiedDouble d = m1.constant - m2.constant;
     const CertifiedDouble p = (m1.along_s - m2.along_s) * exactly(r.a);
     const CertifiedDouble q = (m1.along_t - m2.along_t) * exactly(r.b);
-    // The mean grows at most as fast as d, and half as fast as p and as q.
     const double error = d.error + p.error + q.error + m1.remainder + m2.remainder;
-    const double p_size = std::abs(p.value);
-    const double q_size = std::abs(q.value);
-    const double rounding = 0x1p-44 * (std::abs(d.value) + error + p_size + q_size) + 0x1p-1000;
-    const double low = mean_of_positive_part(d.value - error, p_size, q_size) - rounding;
-    const double high = mean_of_positive_part(d.value + error, p_size, q_size) + rounding;
-    const double middle = low / 2 + high / 2;
-    const CertifiedDouble mean{middle, std::max(high - middle, middle - low) * (1 + 0x1p-50)};
-    return mean * exactly(4) * exactly(r.a) * exactly(r.b);
+    return {d.value, std::abs(p.value), std::abs(q.value), error * (1 + 0x1p-48)};
   }
 
+  // The integral of max(0, one - two).
+  static CertifiedDouble positive_part(const Height& one, const Height& two, const Rectangle& r) {
+    // The mean grows at most as fast as d, and half as fast as p and as q.
+    const auto [d, p, q, error] = difference(one, two, r);
+    const double rounding = 0x1p-44 * (std::abs(d) + error + p + q) + 0x1p-1000;
+    const double low = mean_of_positive_part(d - error, p, q) - rounding;
+    const double high = mean_of_positive_part(d + error, p, q) + rounding;
+    return between(low, high) * exactly(4) * exactly(r.a) * exactly(r.b);
+  }
+
+  template <class Quantity>
   CertifiedDouble slabs(const Item* first, std::size_t count, const Rectangle& r,
-                        Situation& situation) const {
+                        Situation& situation, const Quantity& quantity) const {
     std::vector<double> heights;
     for (const Item* item = first; item != first + count; ++item) {
-      heights.push_back(item->lower);
-      heights.push_back(item->upper);
+      heights.push_back(item->height.lower);
+      heights.push_back(item->height.upper);
     }
     std::sort(heights.begin(), heights.end());
-    const auto sum_of = [&](double height, int factor) {
-      return exactly(factor) * exactly(height);
+    const auto below = [&](double height, int factor) {
+      return factor == 0 ? CertifiedDouble{}
+                         : exactly(factor) * quantity.below({height, height, {}}, r);
     };
     // As if the lowest height were passed into nothing, and the highest out of it.
-    CertifiedDouble sum = sum_of(heights.front(), definite_truth(situation));
+    CertifiedDouble sum = below(heights.front(), definite_truth(situation));
     for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
       const double from = heights[i];
       const double to = heights[i + 1];
       if (from == to) continue;
       for (const Item* item = first; item != first + count; ++item) {
-        situation.of(item->surface) = item->upper <= from ? State::Passed
-                                      : item->lower >= to ? State::Unpassed
-                                                          : State::Uncertain;
+        situation.of(item->surface) = item->height.upper <= from ? State::Passed
+                                      : item->height.lower >= to ? State::Unpassed
+                                                                 : State::Uncertain;
       }
       const csg::Membership value = truth(situation);
-      if (value == csg::Membership::Out) continue;
-      const CertifiedDouble thickness = exactly(to) - exactly(from);
       if (value == csg::Membership::In) {
-        sum = sum + thickness;
-      } else {
-        const CertifiedDouble half = exactly(0.5) * thickness;
-        sum = sum + widened(half, magnitude(half));
+        sum = sum + quantity.between_heights(from, to, r);
+      } else if (value == csg::Membership::Unknown) {
+        sum = sum + quantity.part_between_heights(from, to, r);
       }
     }
+    pass_all(first, count, situation);
+    return sum + below(heights.back(), -definite_truth(situation));
+  }
+
+  static void pass_all(const Item* first, std::size_t count, Situation& situation) {
     for (const Item* item = first; item != first + count; ++item) {
       situation.of(item->surface) = State::Passed;
     }
-    sum = sum + sum_of(heights.back(), -definite_truth(situation));
-    return sum * exactly(4) * exactly(r.a) * exactly(r.b);
   }
 
+  template <class Metric>
+  CertifiedDouble boundary_in_cluster(const Item* first, std::size_t count, const Rectangle& r,
+                                      Situation& situation, const Metric& metric) const {
+    const auto measure = [&](const Item& item) {
+      return item.surface >= bottom ? CertifiedDouble{} : metric(*item.height.graph, r);
+    };
+    if (count == 1 && first->is_known()) {
+      const int before = definite_truth(situation);
+      situation.of(first->surface) = State::Passed;
+      return before == definite_truth(situation) ? CertifiedDouble{} : measure(*first);
+    }
+    if (count == 2 && first[0].is_known() && first[1].is_known()) {
+      return boundary_of_pair(first[0], first[1], r, situation, measure, metric);
+    }
+    CertifiedDouble sum;
+    for (const Item* item = first; item != first + count; ++item) {
+      if (item->surface < bottom) {
+        sum = sum + up_to(exactly(metric.bound(surfaces_[item->surface], r)));
+      }
+    }
+    pass_all(first, count, situation);
+    return sum;
+  }
+
+  template <class Measure, class Metric>
+  CertifiedDouble boundary_of_pair(const Item& one, const Item& two, const Rectangle& r,
+                                   Situation& situation, Measure&& measure,
+                                   const Metric& metric) const {
+    const PairTruth truth = pass(one, two, situation);
+    const auto [d, p, q, error] = difference(one.height, two.height, r);
+    const double low = std::max(0.0, share_of_positive(d - error, p, q) - 0x1p-44);
+    const double high = std::min(1.0, share_of_positive(d + error, p, q) + 0x1p-44);
+    // Where the first is the higher one, and where the second is.
+    const CertifiedDouble above = between(low, high);
+    const CertifiedDouble below = between(1 - high, 1 - low);
+    const auto part = [&](const Item& item, bool is_boundary_above, bool is_boundary_below) {
+      if (item.surface >= bottom || (!is_boundary_above && !is_boundary_below)) {
+        return CertifiedDouble{};
+      }
+      if (is_boundary_above && is_boundary_below) return measure(item);
+      return metric.density(surfaces_[item.surface], *item.height.graph, r) *
+             (is_boundary_above ? above : below) * exactly(4) * exactly(r.a) * exactly(r.b);
+    };
+    return part(one, truth.only_two != truth.both, truth.none != truth.only_one) +
+           part(two, truth.none != truth.only_two, truth.only_one != truth.both);
+  }
+
+  std::size_t axis_;
   std::vector<UnitQuadric> surfaces_;
   PassedTree tree_;
 };

@@ -62,6 +62,36 @@ inline std::optional<AxisPlane> axis_plane(const domain::HalfSpace<3>& half_spac
   return result;
 }
 
+// The planes x_axis = c that are the surface, or a part of it; of two that are not rational, none.
+inline std::vector<AxisPlane> axis_planes(const domain::HalfSpace<3>& half_space) {
+  if (const auto plane = axis_plane(half_space)) return {*plane};
+  const domain::Quadric<3>& f = half_space.polynomial();
+  std::vector<AxisPlane> result;
+  if (f.is_linear()) return result;
+  const auto& square = f.square();
+  const auto& normal = f.linear().normal;
+  const Rational& constant = f.linear().constant;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t j = (a + 1) % 3;
+    const std::size_t k = (a + 2) % 3;
+    // f = (x_a - c) g, g linear: nothing of degree two in the others is left at c.
+    if (square[j][j] != 0 || square[k][k] != 0 || square[j][k] != 0) continue;
+    if (square[a][j] != 0 || square[a][k] != 0) {
+      const std::size_t other = square[a][j] != 0 ? j : k;
+      const Rational c = -normal[other] / (2 * square[a][other]);
+      const bool is_zero_there = 2 * square[a][j] * c + normal[j] == 0 &&
+                                 2 * square[a][k] * c + normal[k] == 0 &&
+                                 (square[a][a] * c + normal[a]) * c + constant == 0;
+      if (is_zero_there) result.push_back({a, c});
+    } else if (normal[j] == 0 && normal[k] == 0) {
+      for (const RealRoot& root : real_roots({square[a][a], normal[a], constant})) {
+        if (root.value.factor() == 0) result.push_back({a, root.value.rational_part()});
+      }
+    }
+  }
+  return result;
+}
+
 // A polynomial in the box's own coordinates that is negative inside the half-space, positive
 // outside.
 inline std::optional<UnitQuadric> local_polynomial(const domain::HalfSpace<3>& half_space,
@@ -133,23 +163,24 @@ class DividingAxis {
   std::size_t count_ = 0;
 };
 
-// Of the surfaces that are planes across an axis and cross the box, the nearest to its middle.
+// Of the planes across an axis that surfaces have and that cross the box, the nearest to its
+// middle.
 template <SpatialDomain P>
 std::optional<AxisPlane> axis_cut(const SurfaceTable<P>& table, const LiteralTree& tree,
                                   const Box3& box) {
   std::optional<AxisPlane> best;
   double least = 2;
-  if constexpr (requires(const P& p) { axis_plane(p); }) {
+  if constexpr (requires(const P& p) { axis_planes(p); }) {
     csg::for_each_primitive(tree, [&](const Literal& literal) {
-      const std::optional<AxisPlane> plane = axis_plane(table[literal.surface]);
-      if (!plane) return;
-      const Rational& low = box.lower()[plane->axis];
-      const Rational& high = box.upper()[plane->axis];
-      if (plane->coordinate <= low || plane->coordinate >= high) return;
-      const double share = nearest_double(Rational((plane->coordinate - low) / (high - low)));
-      if (std::abs(share - 0.5) < least) {
-        least = std::abs(share - 0.5);
-        best = plane;
+      for (const AxisPlane& plane : axis_planes(table[literal.surface])) {
+        const Rational& low = box.lower()[plane.axis];
+        const Rational& high = box.upper()[plane.axis];
+        if (plane.coordinate <= low || plane.coordinate >= high) continue;
+        const double share = nearest_double(Rational((plane.coordinate - low) / (high - low)));
+        if (std::abs(share - 0.5) < least) {
+          least = std::abs(share - 0.5);
+          best = plane;
+        }
       }
     });
   }
@@ -211,7 +242,7 @@ std::optional<Column> column_of(const SurfaceTable<P>& table, const LiteralTree&
       return PassedLiteral{static_cast<std::uint32_t>(index),
                            is_falling[index] != literal.is_complemented};
     });
-    return Column(std::move(surfaces), std::move(passed));
+    return Column(axis, std::move(surfaces), std::move(passed));
   } else {
     return std::nullopt;
   }

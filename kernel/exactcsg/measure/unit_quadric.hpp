@@ -21,31 +21,9 @@
 #include <optional>
 
 #include "exactcsg/domain/quadric.hpp"
-#include "exactcsg/number/certified_double.hpp"
+#include "exactcsg/measure/taylor_series.hpp"
 
 namespace exactcsg::measure::detail {
-
-// Bounds of what a certified double can be, whose own computation is off by a little more.
-inline double magnitude(const CertifiedDouble& x) {
-  return (std::abs(x.value) + x.error) * (1 + 0x1p-50);
-}
-inline bool is_positive(const CertifiedDouble& x) { return x.value > x.error; }
-inline bool is_negative(const CertifiedDouble& x) { return -x.value > x.error; }
-inline bool is_zero(const CertifiedDouble& x) { return x.value == 0 && x.error == 0; }
-inline CertifiedDouble exactly(double value) { return {value, 0}; }
-// Every number within `reach` of x.
-inline CertifiedDouble widened(const CertifiedDouble& x, double reach) {
-  return {x.value, (x.error + reach) * (1 + 0x1p-50)};
-}
-
-// [s - a, s + a] x [t - b, t + b], of numbers that are exact.
-struct Rectangle {
-  double s = 0;
-  double t = 0;
-  double a = 1;
-  double b = 1;
-  double area() const { return 4 * a * b; }
-};
 
 struct UnitQuadric {
   using Vector = std::array<CertifiedDouble, 3>;
@@ -157,34 +135,15 @@ class Graph {
   }
 
   CertifiedDouble integral() const {
-    const Series at_centre = series(centre_point(), order - 1);
-    const Series anywhere = series(all_points());
-    CertifiedDouble sum;
-    const std::array<double, order + 1> powers_a = powers(rectangle_.a);
-    const std::array<double, order + 1> powers_b = powers(rectangle_.b);
-    for (std::size_t n = 0; n <= order; ++n) {
-      for (std::size_t i = 0; i <= n; ++i) {
-        const std::size_t j = n - i;
-        const bool is_even = i % 2 == 0 && j % 2 == 0;
-        if (n < order && !is_even) continue;  // odd powers integrate to 0
-        // The mean of |s^i t^j|; its rounding is relative.
-        const double mean = powers_a[i] * powers_b[j] / static_cast<double>((i + 1) * (j + 1));
-        const CertifiedDouble weight{mean, mean * 0x1p-48};
-        if (n < order) {
-          sum = sum + at_centre[i][j] * weight;
-        } else if (is_even) {
-          sum = sum + anywhere[i][j] * weight;
-        } else {
-          sum = widened(sum, magnitude(anywhere[i][j]) * magnitude(weight));
-        }
-      }
-    }
-    return sum * exactly(4) * exactly(rectangle_.a) * exactly(rectangle_.b);
+    return detail::integral(rectangle_, series_at_centre(order - 1), series_anywhere(), order);
   }
+  // Of the height, in s and t relative to the points.
+  Series series_at_centre(std::size_t degree) const { return series(centre_point(), degree); }
+  Series series_anywhere(std::size_t degree = order) const { return series(all_points(), degree); }
 
   LinearModel linear_model() const {
-    const Series at_centre = series(centre_point(), 1);
-    const Series anywhere = series(all_points(), 2);
+    const Series at_centre = series_at_centre(1);
+    const Series anywhere = series_anywhere(2);
     const double a = rectangle_.a;
     const double b = rectangle_.b;
     const double remainder = magnitude(anywhere[2][0]) * a * a + magnitude(anywhere[1][1]) * a * b +
@@ -193,8 +152,7 @@ class Graph {
   }
 
  private:
-  static constexpr std::size_t order = 6;
-  using Series = std::array<std::array<CertifiedDouble, order + 1>, order + 1>;
+  static constexpr std::size_t order = series_order;
 
   Graph(const UnitQuadric& f, const Rectangle& r, double middle, double reach)
       : f_(&f), rectangle_(r), middle_(middle), lower_(middle - reach), upper_(middle + reach) {}
@@ -227,12 +185,6 @@ class Graph {
     const CertifiedDouble step = (*f_)(guess) / f_->derivative(2, all_points());
     return {guess[0], guess[1], widened(guess[2], magnitude(step))};
   }
-  static std::array<double, order + 1> powers(double x) {
-    std::array<double, order + 1> result{1};
-    for (std::size_t i = 1; i <= order; ++i) result[i] = result[i - 1] * x;
-    return result;
-  }
-
   // The coefficients of s^i t^j in the height about points of the surface, up to degree `degree`.
   Series series(const UnitQuadric::Vector& at, std::size_t degree = order) const {
     const auto& square = f_->square;
