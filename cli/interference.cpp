@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include "cli/curved_models.hpp"
 #include "cli/two_models.hpp"
 #include "exactcsg/solid/classify.hpp"
 #include "exactcsg/solid/figures.hpp"
@@ -26,7 +27,12 @@ Answer answer_by_emptiness(Context& context, const Solid& solid, const std::stri
   return Answer::No;
 }
 
+bool is_about_geometry(const TwoModels& models) {
+  return names_geometry(models.first) || names_geometry(models.second);
+}
+
 Answer interference(Context& context, const TwoModels& models) {
+  if (is_about_geometry(models)) return curved_interference(context, models);
   const io::Model first = read(context, models.first);
   const io::Model second = read(context, models.second);
   return answer_by_emptiness(
@@ -36,6 +42,7 @@ Answer interference(Context& context, const TwoModels& models) {
 }
 
 Answer contains(Context& context, const TwoModels& models) {
+  if (is_about_geometry(models)) return curved_contains(context, models);
   const io::Model outer = read(context, models.first);
   const io::Model inner = read(context, models.second);
   return answer_by_emptiness(
@@ -52,7 +59,8 @@ Command add_interference(CLI::App& app) {
       {"interference",
        "Exit 0 if no part of one model lies in the other; touching is none. If one does, print its "
        "volume and a point of it.",
-       "a model", "another"},
+       "a model; of an OpenMC geometry the set of its materials without void, or with #ID a cell",
+       "another", true},
       interference);
 }
 
@@ -62,7 +70,9 @@ Command add_contains(CLI::App& app) {
       {"contains",
        "Exit 0 if all of B lies in A. If not, print the volume of what lies outside, and a point "
        "of it.",
-       "the model that may contain the other", "the other"},
+       "the model that may contain the other; of an OpenMC geometry the set of its materials "
+       "without void, or with #ID a cell",
+       "the other", true},
       contains);
 }
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/measure_geometry.hpp"
+#include "exactcsg/io/openmc/model.hpp"
 #include "exactcsg/number/enclosure.hpp"
 #include "exactcsg/solid/figures.hpp"
 #include "exactcsg/solid/scaled_vertices.hpp"
@@ -20,6 +22,7 @@ struct Arguments {
   std::vector<std::string> models;
   int digits = 17;
   bool json = false;
+  WidthOption width;
 };
 
 // Longer fractions are of no use to a reader; the decimal has any number of digits.
@@ -154,7 +157,11 @@ Measurement measure_file(Context& context, const std::string& file, const Argume
 }
 
 Answer print_measures_of_one(Context& context, const Arguments& arguments) {
-  const Measurement measurement = measure_file(context, arguments.models.front(), arguments);
+  const std::string& file = arguments.models.front();
+  if (io::openmc::is_geometry_file(file)) {
+    return measure_geometry(context, file, arguments.width, arguments.json, false);
+  }
+  const Measurement measurement = measure_file(context, file, arguments);
   context.print(arguments.json ? as_json(measurement).dump(2) + "\n" : as_text(measurement));
   return Answer::Yes;
 }
@@ -167,8 +174,16 @@ bool concerns_one_model(const Error& error) {
 // JSON Lines, or texts that each begin with the model's name.
 Answer print_measures(Context& context, const Arguments& arguments) {
   if (arguments.models.size() == 1) return print_measures_of_one(context, arguments);
+  Answer answer = Answer::Yes;
   for (const std::string& file : arguments.models) {
     try {
+      if (io::openmc::is_geometry_file(file)) {
+        if (!arguments.json) context.print(fmt::format("{:<16} {}\n", "model", file));
+        const Answer of_one =
+            measure_geometry(context, file, arguments.width, arguments.json, true);
+        if (of_one == Answer::No) answer = Answer::No;
+        continue;
+      }
       const Measurement measurement = measure_file(context, file, arguments);
       context.print(arguments.json ? as_json(measurement).dump() + "\n"
                                    : fmt::format("{:<16} {}\n{}\n", "model", measurement.model,
@@ -178,15 +193,19 @@ Answer print_measures(Context& context, const Arguments& arguments) {
       context.refuse(error);
     }
   }
-  return Answer::Yes;
+  return answer;
 }
 
 }  // namespace
 
 Command add_measure(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "measure", "Volume, area, centre of mass, bounding box, counts, genus and digest.");
+  CLI::App* command = app.add_subcommand("measure",
+                                         "Volume, area, centre of mass, bounding box, counts, "
+                                         "genus and digest. Of an OpenMC geometry: "
+                                         "proved bounds of the volumes of its cells and materials; "
+                                         "exit 1 if a limit was reached before "
+                                         "they were as narrow as asked for.");
   command
       ->add_option("MODEL", arguments->models,
                    "the model; or several, of which one that is refused does not stop the others")
@@ -197,8 +216,18 @@ Command add_measure(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  command
+      ->add_option("--width", arguments->width.width,
+                   "of an OpenMC geometry: how far apart the bounds of a cell's volume may be, in "
+                   "relation to the volume")
+      ->type_name("W")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag("--absolute", arguments->width.is_absolute,
+                    "W is not relative, but a volume in the model's unit");
   command->add_flag("--json", arguments->json,
-                    "a JSON object, schema exactcsg.measure/1; of several models one on each line");
+                    "a JSON object, schema exactcsg.measure/1, or "
+                    "exactcsg.measure_geometry/1; of several models one on each line");
   Command measuring{command,
                     [arguments](Context& context) { return print_measures(context, *arguments); }};
   measuring.models = [arguments] { return arguments->models.size(); };

@@ -23,21 +23,12 @@ std::string text_of_cells(const Model& model, const std::vector<Index>& cells) {
   return text;
 }
 
-std::string text_of_materials(const Cell& cell) {
-  std::string text;
-  for (const std::optional<Id>& material : cell.materials) {
-    if (!text.empty()) text += ", ";
-    text += material ? std::to_string(*material) : std::string("void");
-  }
-  return text;
-}
-
 std::string verdict_of(const Model& model, const Location& location) {
   const std::string cells = text_of_cells(model, location.cells);
   switch (location.verdict) {
     case PointVerdict::InCell:
       return fmt::format("In cell {}, material {}", cells,
-                         text_of_materials(model.cells[location.cells.front()]));
+                         text_of_materials(model.cells[location.cells.front()].materials));
     case PointVerdict::OnBoundary:
       return cells.empty() ? "On the boundary of an element" : fmt::format("On cells {}", cells);
     case PointVerdict::InOverlap:
@@ -53,6 +44,15 @@ std::string line_of(const Model& model, const Location& location) {
 }
 
 }  // namespace
+
+std::string text_of_materials(const std::vector<std::optional<Id>>& materials) {
+  std::string text;
+  for (const std::optional<Id>& material : materials) {
+    if (!text.empty()) text += ", ";
+    text += material ? std::to_string(*material) : std::string("void");
+  }
+  return text;
+}
 
 Model read_geometry(Context& context, const std::filesystem::path& file) {
   context.progress().begin("read", 0);

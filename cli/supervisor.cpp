@@ -75,6 +75,9 @@ Outcome run(const Command& command, Context& context) {
 std::string progress_text(const Progress& progress, double seconds) {
   const auto done = progress.done();
   const auto total = progress.total();
+  if (const double width = progress.relative_width(); width >= 0) {
+    return fmt::format("{} {}, width {:.1e} [{:.1f} s]", progress.stage(), done, width, seconds);
+  }
   if (total == 0) {
     return done == 0 ? fmt::format("{} [{:.1f} s]", progress.stage(), seconds)
                      : fmt::format("{} {} [{:.1f} s]", progress.stage(), done, seconds);

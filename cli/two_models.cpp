@@ -15,6 +15,13 @@ Command add_command_on_two_models(CLI::App& app, const TwoModelsHelp& help,
   CLI::App* command = app.add_subcommand(help.name, help.command);
   command->add_option("A", models->first, help.first)->required();
   command->add_option("B", models->second, help.second)->required();
+  if (help.has_tolerance) {
+    command
+        ->add_option("--tolerance", models->tolerance,
+                     "of OpenMC geometries: a volume within which the answer may stay undecided")
+        ->type_name("V")
+        ->check(CLI::NonNegativeNumber);
+  }
   return {command, [models, answer](Context& context) { return answer(context, *models); }};
 }
 

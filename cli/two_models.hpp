@@ -12,6 +12,7 @@ namespace exactcsg::cli {
 struct TwoModels {
   std::string first;
   std::string second;
+  double tolerance = 0;  // a volume; of commands that take it
 };
 
 // The arguments of a command, and what --help says of them.
@@ -20,6 +21,7 @@ struct TwoModelsHelp {
   const char* command;
   const char* first;
   const char* second;
+  bool has_tolerance = false;
 };
 
 Command add_command_on_two_models(CLI::App& app, const TwoModelsHelp& help,

@@ -458,6 +458,63 @@ bool is_element_of(const Lattice& lattice, const std::array<std::int64_t, 3>& el
   return first >= 0 && first < lattice.counts[0] && second >= 0 && second < lattice.counts[1];
 }
 
+namespace {
+
+// Those of the lattice itself.
+ElementRange all_elements(const Lattice& lattice) {
+  if (!lattice.is_hexagonal()) return {{0, 0, 0}, lattice.counts};
+  const std::int64_t reach = lattice.rings - 1;
+  return {{-reach, -reach, 0}, {reach + 1, reach + 1, lattice.layers}};
+}
+
+void check_count(const ElementRange& range) {
+  std::int64_t product = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t count = range.last[i] - range.first[i];
+    if (count <= 0) return;
+    if (count > most_elements / product) {
+      throw Error(ErrorId::TooLarge, {"a lattice with outer that is seen over more elements",
+                                      fmt::format("at most {}", most_elements)});
+    }
+    product *= count;
+  }
+}
+
+ElementRange common(const ElementRange& a, const ElementRange& b) {
+  ElementRange result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.first[i] = std::max(a.first[i], b.first[i]);
+    result.last[i] = std::min(a.last[i], b.last[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
+void for_each_element(
+    const Lattice& lattice, const std::optional<domain::Box<3>>& box,
+    const std::function<void(const std::array<std::int64_t, 3>& element, Index universe,
+                             const domain::Coordinates<3>& centre)>& visit) {
+  ElementRange range = all_elements(lattice);
+  if (box) {
+    const ElementRange near = elements_near(lattice, *box);
+    range = lattice.outer ? near : common(near, range);
+  }
+  check_count(range);
+  for (std::int64_t layer = range.first[2]; layer < range.last[2]; ++layer) {
+    for (std::int64_t second = range.first[1]; second < range.last[1]; ++second) {
+      for (std::int64_t first = range.first[0]; first < range.last[0]; ++first) {
+        const std::array<std::int64_t, 3> element{first, second, layer};
+        const bool is_inside = is_element_of(lattice, element);
+        if (!is_inside && !(box && lattice.outer)) continue;
+        visit(element,
+              is_inside ? lattice.elements[element_index(lattice, element)] : *lattice.outer,
+              centre_of(lattice, element));
+      }
+    }
+  }
+}
+
 LatticePlace place_in(const Lattice& lattice, const Point& point) {
   Search found = lattice.is_hexagonal() ? place_in_hexagons(lattice, point)
                                         : place_in_rectangles(lattice, point);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Lattices: how they are read, and which element a point is in. [Exact]
+// Lattices: how they are read, which element a point is in, and what an element is. [Exact]
 //
 // Rectangular: the first row of the file has the highest y, x ascends, layers ascend. Hexagonal
 // ones: rows from the highest y, x ascends; with p the pitch and s = sqrt(3)/2 rounded, the element
 // (i, a) has its centre at (s p i, p (a + i/2)) for orientation y, at (p (i + a/2), s p a) for x,
 // relative to the lattice's. An element is a hexagon of the plane's tiling by them, that of regular
 // hexagons but for the rounding of s.
+
+#include <functional>
 
 #include "exactcsg/io/openmc/located_xml.hpp"
 #include "exactcsg/io/openmc/model.hpp"
@@ -60,5 +62,13 @@ struct ElementRange {
 ElementRange elements_near(const Lattice& lattice, const domain::Box<3>& box);
 
 bool is_element_of(const Lattice& lattice, const std::array<std::int64_t, 3>& element);
+
+// visit(element, universe, centre) for those that may have points inside the box, in which the
+// lattice's grid goes on for ever if it has an outer universe; without a box for all elements, and
+// not for those of the outer universe. THROWS Error(TooLarge) as elements_near
+void for_each_element(
+    const Lattice& lattice, const std::optional<domain::Box<3>>& box,
+    const std::function<void(const std::array<std::int64_t, 3>& element, Index universe,
+                             const domain::Coordinates<3>& centre)>& visit);
 
 }  // namespace exactcsg::io::openmc
