@@ -8,10 +8,12 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/openmc.hpp"
 #include "cli/output_file.hpp"
 #include "cli/terminal.hpp"
 #include "exactcsg/support/version.hpp"
 #include "exactcsg/verify/report.hpp"
+#include "exactcsg/verify/verify_geometry.hpp"
 
 namespace exactcsg::cli {
 
@@ -49,8 +51,19 @@ void check(const Arguments& arguments) {
   }
 }
 
-Answer verify_one(Context& context, const Arguments& arguments) {
-  check(arguments);
+verify::Report report_on_geometry(Context& context, const Arguments& arguments) {
+  if (!arguments.against.empty() || !arguments.golden.empty()) {
+    throw Error(ErrorId::Usage, {"--against or --golden with an OpenMC geometry", "neither"});
+  }
+  verify::VerifyGeometryOptions options;
+  options.seed = arguments.seed;
+  options.progress = &context.progress();
+  verify::Report report = verify::verify_geometry(read_geometry(context, arguments.model), options);
+  verify::require_oracles(report, arguments.required);
+  return report;
+}
+
+verify::Report report_on_solid(Context& context, const Arguments& arguments) {
   const io::Model model = read(context, arguments.model);
   verify::VerifyOptions options;
   options.source = arguments.model;
@@ -63,7 +76,14 @@ Answer verify_one(Context& context, const Arguments& arguments) {
   options.threads = context.common().threads;
   options.seed = arguments.seed;
   options.progress = &context.progress();
-  verify::Report report = verify::verify_model(model, options);
+  return verify::verify_model(model, options);
+}
+
+Answer verify_one(Context& context, const Arguments& arguments) {
+  check(arguments);
+  verify::Report report = io::openmc::is_geometry_file(arguments.model)
+                              ? report_on_geometry(context, arguments)
+                              : report_on_solid(context, arguments);
   if (report.library.empty()) report.library = std::string(version);
   for (const std::string& file : arguments.reports) {
     write_file(file, [&](const std::filesystem::path& temporary) {
@@ -83,7 +103,9 @@ Answer verify_one(Context& context, const Arguments& arguments) {
 Command add_verify(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "verify", "Hold the exact evaluation of a model against independent oracles.");
+      "verify",
+      "Hold the exact evaluation of a model, or the proved volumes of an OpenMC geometry, against "
+      "independent oracles.");
   command->add_option("MODEL", arguments->model, "the model")->required();
   command
       ->add_option(

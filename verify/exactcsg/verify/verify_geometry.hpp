@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The certified volumes of an OpenMC model held against random points.
+//
+// LAW verify_geometry.1  a check has passed only if the proved bounds and the estimate's interval
+// of
+//                        so many standard deviations have a number in common.
+// LAW verify_geometry.2  what no oracle can answer is Skipped with its reason, never Passed.
+// Points estimate volumes, so that a fault below their deviation is not seen; `bound` says how
+// large that is. Beyond six deviations lie two of a thousand million estimates.
+
+#include "exactcsg/io/openmc/model.hpp"
+#include "exactcsg/support/progress.hpp"
+#include "exactcsg/verify/report.hpp"
+
+namespace exactcsg::verify {
+
+struct VerifyGeometryOptions {
+  double relative_width = 1e-6;
+  std::uint64_t points = 1'000'000;
+  double deviations = 6;
+  std::uint64_t seed = 1;
+  Progress* progress = nullptr;
+};
+
+// THROWS what Progress throws.
+Report verify_geometry(const io::openmc::Model& model, const VerifyGeometryOptions& options = {});
+
+}  // namespace exactcsg::verify
