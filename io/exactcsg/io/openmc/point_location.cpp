@@ -179,14 +179,15 @@ csg::Membership membership_near(const SurfaceSide& side, const std::vector<Surfa
 class CandidateTable {
  public:
   struct Range {
-    std::size_t first = 0;
-    std::size_t last = 0;
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
   };
 
   std::size_t size() const { return candidates_.size(); }
 
   void add(const Model& model, Index cell, const Region& region) {
-    Candidate candidate{cell, false, sides_.size(), sides_.size()};
+    const auto first = static_cast<std::uint32_t>(sides_.size());
+    Candidate candidate{cell, false, first, first};
     const auto is_side = [](const Region& part) { return part.is_primitive(); };
     if (region.is_full() || is_side(region)) {
       candidate.is_intersection = true;
@@ -198,7 +199,7 @@ class CandidateTable {
     if (candidate.is_intersection) {
       csg::for_each_primitive(region, [&](const SurfaceSide& side) { sides_.push_back(side); });
     }
-    candidate.last_side = sides_.size();
+    candidate.last_side = static_cast<std::uint32_t>(sides_.size());
     candidates_.push_back(candidate);
     regions_.push_back({region, half_spaces(model, region)});
   }
@@ -224,8 +225,8 @@ class CandidateTable {
   struct Candidate {
     Index cell;
     bool is_intersection;  // of sides, which are these
-    std::size_t first_side;
-    std::size_t last_side;
+    std::uint32_t first_side;
+    std::uint32_t last_side;
   };
   struct Regions {
     Region sides;
@@ -299,12 +300,13 @@ class UniverseIndex {
     Index cell;
     Region region;
   };
+  // Small: most of the time goes into fetching them.
   struct Node {
-    std::size_t axis = 0;
     double wall = 0;
-    std::size_t children = 0;  // the lower one, the upper one follows; 0: a leaf
-    CandidateTable::Range candidates;
+    std::uint32_t link = 0;  // the lower child, which the upper one follows; of a leaf, a range
+    std::uint32_t axis = leaf_axis;
   };
+  static constexpr std::uint32_t leaf_axis = 3;
   struct Task {
     std::size_t node;
     Frame frame;
@@ -320,9 +322,9 @@ class UniverseIndex {
   }
 
   CandidateTable::Range entered(const Model& model, const std::vector<Piece>& pieces) {
-    const std::size_t first = table_.size();
+    const auto first = static_cast<std::uint32_t>(table_.size());
     for (const Piece& piece : pieces) table_.add(model, piece.cell, piece.region);
-    return {first, table_.size()};
+    return {first, static_cast<std::uint32_t>(table_.size())};
   }
 
   static std::vector<Piece> pruned(const std::vector<SurfaceFilter>& filters,
@@ -387,7 +389,8 @@ class UniverseIndex {
       const Task task = std::move(pending.back());
       pending.pop_back();
       if (!divide_node(filters, task, pending)) {
-        nodes_[task.node].candidates = entered(model, task.pieces);
+        nodes_[task.node].link = static_cast<std::uint32_t>(leaves_.size());
+        leaves_.push_back(entered(model, task.pieces));
       }
     }
   }
@@ -402,7 +405,8 @@ class UniverseIndex {
     }
     std::optional<Division> best = best_division(filters, task);
     if (!best) return false;
-    nodes_[task.node] = {best->axis, best->wall, nodes_.size(), {}};
+    nodes_[task.node] = {best->wall, static_cast<std::uint32_t>(nodes_.size()),
+                         static_cast<std::uint32_t>(best->axis)};
     // Nothing on one side: the frame was too wide there, which is neither in vain nor a success.
     const bool is_narrower =
         10 * std::min(size_of(best->pieces[0]), size_of(best->pieces[1])) <= size;
@@ -428,19 +432,20 @@ class UniverseIndex {
       if (*below != Sign::Positive || *above != Sign::Negative) return &all_;
     }
     const Node* node = nodes_.data();
-    while (node->children != 0) {
+    while (node->axis != leaf_axis) {
       const std::optional<Sign> side = compare_with(node->axis, node->wall);
       if (!side) return nullptr;
       if (*side == Sign::Zero) return &all_;
-      node = &nodes_[node->children + (*side == Sign::Positive ? 1 : 0)];
+      node = &nodes_[node->link + (*side == Sign::Positive ? 1U : 0U)];
     }
-    return &node->candidates;
+    return &leaves_[node->link];
   }
 
   CandidateTable table_;
   CandidateTable::Range all_;
   Frame frame_{};
   std::vector<Node> nodes_;
+  std::vector<CandidateTable::Range> leaves_;
 };
 
 }  // namespace
