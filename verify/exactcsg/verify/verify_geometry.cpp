@@ -10,9 +10,11 @@
 #include "exactcsg/io/openmc/cell_volumes.hpp"
 #include "exactcsg/io/openmc/region_bounds.hpp"
 #include "exactcsg/io/openmc/universes.hpp"
+#include "exactcsg/measure/bounding_box.hpp"
 #include "exactcsg/measure/decimal_bounds.hpp"
 #include "exactcsg/support/version.hpp"
 #include "exactcsg/verify/monte_carlo.hpp"
+#include "exactcsg/verify/nef_volume.hpp"
 
 namespace exactcsg::verify {
 
@@ -52,9 +54,9 @@ std::optional<SamplingBox> sampling_box(const Model& model, std::string& reason)
   }
 }
 
-Check skipped(std::string name, std::string explanation) {
+Check skipped(std::string oracle, std::string name, std::string explanation) {
   Check check;
-  check.oracle = "sampling";
+  check.oracle = std::move(oracle);
   check.name = std::move(name);
   check.verdict = Verdict::Skipped;
   check.explanation = std::move(explanation);
@@ -85,6 +87,60 @@ Check compared(std::string name, const VisibleVolume& ours, const SampledVolume&
   return check;
 }
 
+// A quarter more on each side, so that a bounding box that is too small is seen.
+domain::Box<3> enlarged(const domain::Box<3>& box) {
+  domain::Coordinates<3> lower = box.lower().coordinates();
+  domain::Coordinates<3> upper = box.upper().coordinates();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rational margin = (upper[i] - lower[i]) / 4;
+    lower[i] -= margin;
+    upper[i] += margin;
+  }
+  return {lower, upper};
+}
+
+// Against the cell's own region: what of it is visible where nothing clips it.
+Check compared_with_nef(const Model& model, Index index, const Enclosure& volume, double seconds,
+                        const VerifyGeometryOptions& options) {
+  const Cell& cell = model.cells[index];
+  std::string name = fmt::format("nef: cell {}", cell.id);
+  if (seconds <= 0) {
+    return skipped("nef", std::move(name),
+                   fmt::format("over the budget of {:g} s for all cells", options.nef_seconds));
+  }
+  const measure::Extent extent = measure::bounding_box(half_spaces(model, cell.region));
+  if (!extent.box) return skipped("nef", std::move(name), "the cell has no bounding box");
+  NefLimits limits;
+  limits.seconds = seconds;
+  limits.progress = options.progress;
+  return compare_with_nef(
+      std::move(name), volume,
+      nef_volume(model, cell.region, enlarged(*extent.box), options.nef_segments, limits));
+}
+
+void hold_against_nef(const Model& model, const GeometryVolumes& volumes,
+                      const VerifyGeometryOptions& options, Report& report) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<Index>& cells = model.universes[model.root].cells;
+  if (options.progress != nullptr) options.progress->begin("Nef polyhedra", cells.size());
+  for (const Index index : cells) {
+    const std::optional<Enclosure>& volume = volumes.cells[index].volume;
+    const double used =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.checks.push_back(
+        volume ? compared_with_nef(model, index, *volume, options.nef_seconds - used, options)
+               : skipped("nef", fmt::format("nef: cell {}", model.cells[index].id),
+                         "it is not bounded"));
+    if (options.progress == nullptr) continue;
+    options.progress->advance();
+    options.progress->check();
+  }
+  if (cells.size() < model.cells.size()) {
+    report.checks.push_back(skipped("nef", "nef: cells of other universes",
+                                    "faceted are the root's cells only, which nothing clips"));
+  }
+}
+
 }  // namespace
 
 Report verify_geometry(const Model& model, const VerifyGeometryOptions& options) {
@@ -105,15 +161,14 @@ Report verify_geometry(const Model& model, const VerifyGeometryOptions& options)
     for (std::size_t i = 0; i < model.cells.size(); ++i) {
       const std::string name = fmt::format("sampling: cell {}", model.cells[i].id);
       report.checks.push_back(
-          without_end[i] ? skipped(name, "it is not bounded, or a cell that it is seen in is not")
-                         : compared(name, volumes.cells[i], sampled[i], options.deviations));
+          without_end[i]
+              ? skipped("sampling", name, "it is not bounded, or a cell that it is seen in is not")
+              : compared(name, volumes.cells[i], sampled[i], options.deviations));
     }
   } else {
-    report.checks.push_back(skipped("sampling: volumes", reason));
+    report.checks.push_back(skipped("sampling", "sampling: volumes", reason));
   }
-  Check nef = skipped("nef: faceted model", "no faceted version of a geometry is built yet");
-  nef.oracle = "nef";
-  report.checks.push_back(std::move(nef));
+  hold_against_nef(model, volumes, options, report);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The certified volumes of an OpenMC model held against random points.
+// The certified volumes of an OpenMC model held against random points, and those of the root's
+// cells against polyhedra within them and round them (nef_volume.hpp).
 //
-// LAW verify_geometry.1  a check has passed only if the proved bounds and the estimate's interval
-// of
-//                        so many standard deviations have a number in common.
+// LAW verify_geometry.1  a check has passed only if the proved bounds and the oracle's have a
+// number
+//                        in common: the estimate's interval of so many standard deviations, or the
+//                        volumes of the two polyhedra.
 // LAW verify_geometry.2  what no oracle can answer is Skipped with its reason, never Passed.
 // Points estimate volumes, so that a fault below their deviation is not seen; `bound` says how
 // large that is. Beyond six deviations lie two of a thousand million estimates.
@@ -21,6 +23,8 @@ struct VerifyGeometryOptions {
   std::uint64_t points = 1'000'000;
   double deviations = 6;
   std::uint64_t seed = 1;
+  double nef_seconds = 60;          // for all cells; 0: no Nef polyhedra
+  std::uint32_t nef_segments = 24;  // of a circle: even
   Progress* progress = nullptr;
 };
 

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Regions of an OpenMC model with their curved surfaces replaced by convex polyhedra, once so that
+// nothing is added and once so that nothing is lost. [Exact]
+//
+// Spheres, cylinders and cones along an axis or not, and ellipsoids are images of the unit ball, of
+// the unit circle's cylinder or of its double cone. Their inner polyhedron has its corners in the
+// set; the outer one is the inner one enlarged by a rational factor at which every side is at least
+// 1 away from the centre. Irrational semi-axes are rounded inwards for the one and outwards for the
+// other. A region grows with the insides that it is made of and shrinks with the outsides: that
+// says which of the two stands for which occurrence.
+//
+// It shares the reader's coefficients with the kernel, and no half-space, no column, no enclosure.
+//
+// LAW faceted_region.1  lower is a subset of the region within the box, and upper a superset, but
+//                       for sets without interior.
+// LAW faceted_region.2  both are bounded: within the box.
+// COST: O(segments^4) signs for a sphere, O(segments^2) for the others.
+
+#include <optional>
+#include <string>
+
+#include "exactcsg/io/openmc/model.hpp"
+#include "exactcsg/solid/solid.hpp"
+
+namespace exactcsg::verify {
+
+struct FacetedRegion {
+  Solid lower;
+  Solid upper;
+};
+
+// Why the region has no faceted version: the first of its surfaces that is no plane and none of the
+// above (a torus, a hyperboloid, a paraboloid, a pair of planes); nullopt: it has one.
+std::optional<std::string> reason_not_faceted(const io::openmc::Model& model,
+                                              const io::openmc::Region& region);
+
+// segments: corners of a circle; a sphere has half as many bands.
+// REQUIRES !reason_not_faceted(model, region), segments >= 4 and even
+FacetedRegion faceted(const io::openmc::Model& model, const io::openmc::Region& region,
+                      const domain::Box<3>& box, std::uint32_t segments);
+
+}  // namespace exactcsg::verify
