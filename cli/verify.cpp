@@ -58,6 +58,7 @@ verify::Report report_on_geometry(Context& context, const Arguments& arguments) 
   verify::VerifyGeometryOptions options;
   options.seed = arguments.seed;
   options.nef_seconds = arguments.budget;
+  options.disabled = arguments.without;
   options.progress = &context.progress();
   verify::Report report = verify::verify_geometry(read_geometry(context, arguments.model), options);
   verify::require_oracles(report, arguments.required);

@@ -64,7 +64,7 @@ TEST(VerifyGeometry, AFaultOfFivePercentIsFound) {
   VerifyGeometryOptions options;
   options.relative_width = 1e-4;
   options.points = 100'000;
-  options.nef_seconds = 0;
+  options.disabled = {"nef"};
   const Report report = verify_geometry(model, options);
   EXPECT_EQ(report.overall(), Verdict::Failed);
   EXPECT_EQ(report.checks[0].verdict, Verdict::Failed);

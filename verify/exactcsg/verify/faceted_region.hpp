@@ -36,7 +36,8 @@ struct FacetedRegion {
 std::optional<std::string> reason_not_faceted(const io::openmc::Model& model,
                                               const io::openmc::Region& region);
 
-// segments: corners of a circle; a sphere has half as many bands.
+// segments: corners of a ball's equator, which has half as many bands; cylinders and cones have
+// twice as many.
 // REQUIRES !reason_not_faceted(model, region), segments >= 4 and even
 FacetedRegion faceted(const io::openmc::Model& model, const io::openmc::Region& region,
                       const domain::Box<3>& box, std::uint32_t segments);

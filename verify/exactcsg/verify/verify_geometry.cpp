@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "exactcsg/io/openmc/cell_volumes.hpp"
@@ -87,6 +89,25 @@ Check compared(std::string name, const VisibleVolume& ours, const SampledVolume&
   return check;
 }
 
+void hold_against_points(const Model& model, const GeometryVolumes& volumes,
+                         const VerifyGeometryOptions& options, Report& report) {
+  std::string reason;
+  if (const std::optional<SamplingBox> box = sampling_box(model, reason)) {
+    const std::vector<SampledVolume> sampled =
+        sample_volumes(model, *box, options.points, options.seed, options.progress);
+    const std::vector<bool> without_end = cells_without_end(model, volumes);
+    for (std::size_t i = 0; i < model.cells.size(); ++i) {
+      const std::string name = fmt::format("sampling: cell {}", model.cells[i].id);
+      report.checks.push_back(
+          without_end[i]
+              ? skipped("sampling", name, "it is not bounded, or a cell that it is seen in is not")
+              : compared(name, volumes.cells[i], sampled[i], options.deviations));
+    }
+  } else {
+    report.checks.push_back(skipped("sampling", "sampling: volumes", reason));
+  }
+}
+
 // A quarter more on each side, so that a bounding box that is too small is seen.
 domain::Box<3> enlarged(const domain::Box<3>& box) {
   domain::Coordinates<3> lower = box.lower().coordinates();
@@ -153,22 +174,12 @@ Report verify_geometry(const Model& model, const VerifyGeometryOptions& options)
   limits.progress = options.progress;
   const GeometryVolumes volumes = measure_volumes(model, limits);
   if (options.progress != nullptr) options.progress->check();
-  std::string reason;
-  if (const std::optional<SamplingBox> box = sampling_box(model, reason)) {
-    const std::vector<SampledVolume> sampled =
-        sample_volumes(model, *box, options.points, options.seed, options.progress);
-    const std::vector<bool> without_end = cells_without_end(model, volumes);
-    for (std::size_t i = 0; i < model.cells.size(); ++i) {
-      const std::string name = fmt::format("sampling: cell {}", model.cells[i].id);
-      report.checks.push_back(
-          without_end[i]
-              ? skipped("sampling", name, "it is not bounded, or a cell that it is seen in is not")
-              : compared(name, volumes.cells[i], sampled[i], options.deviations));
-    }
-  } else {
-    report.checks.push_back(skipped("sampling", "sampling: volumes", reason));
-  }
-  hold_against_nef(model, volumes, options, report);
+  const auto is_enabled = [&](std::string_view oracle) {
+    return std::find(options.disabled.begin(), options.disabled.end(), oracle) ==
+           options.disabled.end();
+  };
+  if (is_enabled("sampling")) hold_against_points(model, volumes, options, report);
+  if (is_enabled("nef")) hold_against_nef(model, volumes, options, report);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

@@ -12,6 +12,9 @@
 // Points estimate volumes, so that a fault below their deviation is not seen; `bound` says how
 // large that is. Beyond six deviations lie two of a thousand million estimates.
 
+#include <string>
+#include <vector>
+
 #include "exactcsg/io/openmc/model.hpp"
 #include "exactcsg/support/progress.hpp"
 #include "exactcsg/verify/report.hpp"
@@ -23,8 +26,9 @@ struct VerifyGeometryOptions {
   std::uint64_t points = 1'000'000;
   double deviations = 6;
   std::uint64_t seed = 1;
-  double nef_seconds = 60;          // for all cells; 0: no Nef polyhedra
-  std::uint32_t nef_segments = 24;  // of a circle: even
+  double nef_seconds = 60;            // for all cells
+  std::uint32_t nef_segments = 24;    // faceted_region.hpp
+  std::vector<std::string> disabled;  // of "sampling" and "nef", not to be run at all
   Progress* progress = nullptr;
 };
 
