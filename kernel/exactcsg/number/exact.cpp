@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -67,7 +68,12 @@ long exponent_of(std::string_view digits) {
 }
 
 Integer integer_of_digits(std::string_view digits) {
-  return digits.empty() ? Integer(0) : Integer(std::string(digits), 10);
+  if (digits.size() > std::numeric_limits<unsigned long>::digits10) {
+    return Integer(std::string(digits), 10);
+  }
+  unsigned long value = 0;  // what it stays if there are no digits
+  std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return value;
 }
 
 Integer power_of_ten(unsigned long exponent) {
@@ -197,7 +203,8 @@ std::optional<Rational> parse_rational(std::string_view text) {
       exponent_sign * exponent_of(exponent_digits) - static_cast<long>(fraction.size());
   Integer digits = integer_of_digits(std::string(whole).append(fraction));
   if (sign < 0) digits = -digits;
-  if (exponent >= 0) {
+  if (exponent == 0) return Rational(digits);
+  if (exponent > 0) {
     return Rational(Integer(digits * power_of_ten(static_cast<unsigned long>(exponent))));
   }
   Rational value(digits, power_of_ten(static_cast<unsigned long>(-exponent)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exactcsg/number/point.hpp"
 
+#include "exactcsg/number/products.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -29,7 +30,11 @@ Rational cofactor(const AffineMap& f, std::size_t i, std::size_t j) {
   const Row& s = f.m[(i + 2) % 3];
   const std::size_t k = (j + 1) % 3;
   const std::size_t l = (j + 2) % 3;
-  return r[k] * s[l] - r[l] * s[k];
+  Rational result;
+  add_product(result, r[l], s[k]);
+  result = -result;
+  add_product(result, r[k], s[l]);
+  return result;
 }
 
 }  // namespace
@@ -71,23 +76,31 @@ AffineMap operator*(const AffineMap& f, const AffineMap& g) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Row& row = f.m[i];
     for (std::size_t j = 0; j < 4; ++j) {
-      product.m[i][j] = row[0] * g.m[0][j] + row[1] * g.m[1][j] + row[2] * g.m[2][j];
+      Rational& entry = product.m[i][j];
+      for (std::size_t k = 0; k < 3; ++k) add_product(entry, row[k], g.m[k][j]);
     }
-    product.m[i][3] += row[3];
+    add_product(product.m[i][3], row[3], 1);
   }
   return product;
 }
 
 Point3 apply(const AffineMap& f, const Point3& p) {
   const auto coordinate = [&p](const Row& row) {
-    return Rational(row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]);
+    Rational sum = row[3];
+    add_product(sum, row[0], p.x);
+    add_product(sum, row[1], p.y);
+    add_product(sum, row[2], p.z);
+    return sum;
   };
   return {coordinate(f.m[0]), coordinate(f.m[1]), coordinate(f.m[2])};
 }
 
 Rational determinant(const AffineMap& f) {
-  const Row& row = f.m[0];
-  return row[0] * cofactor(f, 0, 0) + row[1] * cofactor(f, 0, 1) + row[2] * cofactor(f, 0, 2);
+  Rational sum;
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (sgn(f.m[0][j]) != 0) add_product(sum, f.m[0][j], cofactor(f, 0, j));
+  }
+  return sum;
 }
 
 AffineMap inverse(const AffineMap& f) {

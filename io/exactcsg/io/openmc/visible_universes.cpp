@@ -11,6 +11,7 @@
 #include "exactcsg/domain/half_spaces.hpp"
 #include "exactcsg/io/openmc/lattices.hpp"
 #include "exactcsg/io/openmc/region_bounds.hpp"
+#include "exactcsg/io/openmc/universes.hpp"
 #include "exactcsg/measure/surface_table.hpp"
 
 namespace exactcsg::io::openmc {
@@ -24,10 +25,6 @@ constexpr std::size_t most_views = 2'000'000;
 
 HalfSpaceRegion pruned(const HalfSpaceRegion& region, const Box& box) {
   return csg::prune(region, [&](const HalfSpace& half_space) { return classify(half_space, box); });
-}
-
-HalfSpaceRegion mapped(const AffineMap& map, const HalfSpaceRegion& region) {
-  return csg::map(region, [&](const HalfSpace& half_space) { return apply(map, half_space); });
 }
 
 HalfSpaceRegion region_of(const Box& box) {
@@ -65,16 +62,10 @@ Box box_of_image(const AffineMap& map, const Box& box) {
   return {lower, upper};
 }
 
-AffineMap translation_by(const Coordinates& offset) {
-  AffineMap map = AffineMap::identity();
-  for (std::size_t i = 0; i < 3; ++i) map.m[i][3] = offset[i];
-  return map;
-}
-
 Visible mapped(const AffineMap& map, Visible visible) {
   if (!keeps_axes(map)) visible.window = csg::intersect(visible.window, region_of(visible.box));
   visible.box = box_of_image(map, visible.box);
-  visible.window = pruned(mapped(map, visible.window), visible.box);
+  visible.window = pruned(moved(map, visible.window), visible.box);
   visible.from_root = map * visible.from_root;
   return visible;
 }
@@ -317,7 +308,7 @@ class Explorer {
     Coordinates offset = centre_of(lattice, element);
     for (Rational& x : offset) x = -x;
     if (!lattice.has_layers) offset[2] = 0;
-    result = mapped(translation_by(offset), std::move(result));
+    result = mapped(translation(offset), std::move(result));
     result.window = pruned(csg::intersect(std::move(result.window), shape.sides), result.box);
     result.path.push_back({StepKind::Lattice, index, element});
     if (!is_element_of(lattice, element)) result.path.back().element.reset();

@@ -13,6 +13,7 @@
 #include "exactcsg/io/planar/offset.hpp"
 #include "exactcsg/io/planar/projection.hpp"
 #include "exactcsg/io/planar/unions.hpp"
+#include "exactcsg/number/products.hpp"
 #include "exactcsg/solid/evaluate.hpp"
 
 namespace exactcsg::io::openscad {
@@ -37,10 +38,11 @@ constexpr std::size_t map_bit_limit = 100'000;
 AffineMap2 compose(const AffineMap2& f, const AffineMap& g) {
   AffineMap2 result;
   for (std::size_t i = 0; i < 2; ++i) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      result.m[i][k] = f.m[i][0] * g.m[0][k] + f.m[i][1] * g.m[1][k];
+    for (const auto& [k, column] : {std::pair<std::size_t, std::size_t>{0, 0}, {1, 1}, {2, 3}}) {
+      add_product(result.m[i][k], f.m[i][0], g.m[0][column]);
+      add_product(result.m[i][k], f.m[i][1], g.m[1][column]);
     }
-    result.m[i][2] = f.m[i][0] * g.m[0][3] + f.m[i][1] * g.m[1][3] + f.m[i][2];
+    result.m[i][2] += f.m[i][2];
   }
   return result;
 }

@@ -376,7 +376,10 @@ std::optional<AffineMap> read_multmatrix(const SyntaxTree& tree, std::uint32_t n
   }
   AffineMap map;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 4; ++k) map.m[i][k] = rows[i][k] / rows[3][3];
+    for (std::size_t k = 0; k < 4; ++k) {
+      map.m[i][k] = std::move(rows[i][k]);
+      if (rows[3][3] != 1) map.m[i][k] /= rows[3][3];
+    }
   }
   return map;
 }
