@@ -82,7 +82,8 @@ TEST(Graph, IntegralOfAParaboloid) {
   f.square[0][0] = detail::exactly(-0.25);
   f.square[1][1] = detail::exactly(0.0625);
   f.square[0][1] = f.square[1][0] = detail::exactly(-0.0625);
-  const auto graph = Graph::find(f, Rectangle());
+  const detail::UnitSurface surface(f);
+  const auto graph = Graph::find(surface, Rectangle());
   ASSERT_TRUE(graph);
   const CertifiedDouble integral = graph->integral();
   EXPECT_TRUE(
@@ -97,9 +98,10 @@ TEST(Graph, IntegralOfASphere) {
   f.constant = detail::exactly(-3);  // s^2 + t^2 + (z + 1)^2 = 4
   f.linear = {CertifiedDouble{}, CertifiedDouble{}, detail::exactly(2)};
   for (std::size_t i = 0; i < 3; ++i) f.square[i][i] = detail::exactly(1);
+  const detail::UnitSurface surface(f);
   double before = 0;
   for (const double size : {0.5, 0.25, 0.125}) {
-    const auto graph = Graph::find(f, Rectangle{0, 0, size, size});
+    const auto graph = Graph::find(surface, Rectangle{0, 0, size, size});
     ASSERT_TRUE(graph);
     EXPECT_LT(graph->upper() - graph->lower(), 4 * size * size + size);
     const CertifiedDouble integral = graph->integral();
@@ -132,9 +134,10 @@ TEST(Graph, IsNotFoundWhereThereIsNone) {
   UnitQuadric f;
   f.constant = detail::exactly(-1);
   for (std::size_t i = 0; i < 3; ++i) f.square[i][i] = detail::exactly(1);
-  EXPECT_FALSE(Graph::find(f, Rectangle{0.75, 0, 0.25, 0.25}));
-  EXPECT_FALSE(Graph::find(f, Rectangle{2, 2, 0.25, 0.25}));
-  EXPECT_TRUE(Graph::find(f, Rectangle{0.5, 0, 0.125, 0.125}));
+  const detail::UnitSurface surface(f);
+  EXPECT_FALSE(Graph::find(surface, Rectangle{0.75, 0, 0.25, 0.25}));
+  EXPECT_FALSE(Graph::find(surface, Rectangle{2, 2, 0.25, 0.25}));
+  EXPECT_TRUE(Graph::find(surface, Rectangle{0.5, 0, 0.125, 0.125}));
 }
 
 // Sums over a grid of 400 x 400 points are off by less than (p + q)^2 / 400^2 of the mean.

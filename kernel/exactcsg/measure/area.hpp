@@ -119,18 +119,18 @@ class GraphArea {
                             density(graph.series_anywhere(), degree), degree);
   }
   // Encloses the area over the rectangle's, at every point of the graph.
-  CertifiedDouble density(const UnitQuadric& f, const Graph& graph, const Rectangle& r) const {
+  CertifiedDouble density(const UnitSurface& f, const Graph& graph, const Rectangle& r) const {
     return density(f, {CertifiedDouble{r.s, r.a}, CertifiedDouble{r.t, r.b},
                        between(graph.lower(), graph.upper())});
   }
-  double bound(const UnitQuadric& f, const Rectangle& r) const {
+  double bound(const UnitSurface& f, const Rectangle& r) const {
     const CertifiedDouble greatest =
         density(f, {CertifiedDouble{r.s, r.a}, CertifiedDouble{r.t, r.b}, CertifiedDouble{0, 1}});
     return magnitude(greatest) * r.area() * (1 + 0x1p-48);
   }
 
  private:
-  CertifiedDouble density(const UnitQuadric& f, const UnitQuadric::Vector& at) const {
+  CertifiedDouble density(const UnitSurface& f, const UnitSurface::Vector& at) const {
     const CertifiedDouble slope = f.derivative(2, at);
     const CertifiedDouble s = f.derivative(0, at) / slope;
     const CertifiedDouble t = f.derivative(1, at) / slope;

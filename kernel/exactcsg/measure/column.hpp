@@ -138,17 +138,17 @@ class Column {
  public:
   // REQUIRES each surface's derivative by the height, the last coordinate, is positive in the cell.
   // `axis`: of the box, along which the height is; the others follow it in cyclic order.
-  Column(std::size_t axis, std::vector<UnitQuadric> surfaces, PassedTree tree)
+  Column(std::size_t axis, std::vector<UnitSurface> surfaces, PassedTree tree)
       : axis_(axis), surfaces_(std::move(surfaces)), tree_(std::move(tree)) {}
 
   std::size_t axis() const { return axis_; }
 
   // How much the heights vary over the rectangle along its first and its second side, roughly.
   std::array<double, 2> variations(const Rectangle& r) const {
-    const UnitQuadric::Vector anywhere{CertifiedDouble{r.s, r.a}, CertifiedDouble{r.t, r.b},
+    const UnitSurface::Vector anywhere{CertifiedDouble{r.s, r.a}, CertifiedDouble{r.t, r.b},
                                        CertifiedDouble{0, 1}};
     std::array<double, 2> result{};
-    for (const UnitQuadric& f : surfaces_) {
+    for (const UnitSurface& f : surfaces_) {
       const double slope = magnitude(f.derivative(2, anywhere));
       result[0] += magnitude(f.derivative(0, anywhere)) / slope * r.a;
       result[1] += magnitude(f.derivative(1, anywhere)) / slope * r.b;
@@ -177,7 +177,7 @@ class Column {
   template <class Metric>
   double boundary_bound(const Rectangle& r, const Metric& metric) const {
     double sum = 0;
-    for (const UnitQuadric& f : surfaces_) sum += metric.bound(f, r);
+    for (const UnitSurface& f : surfaces_) sum += metric.bound(f, r);
     return sum * (1 + 0x1p-40);
   }
 
@@ -227,7 +227,7 @@ class Column {
 
   void add_item(std::size_t i, const Rectangle& r, std::vector<Item>& items,
                 std::vector<State>& states) const {
-    const UnitQuadric& f = surfaces_[i];
+    const UnitSurface& f = surfaces_[i];
     if (is_positive(f.range_at(r, -1))) {
       states[i] = State::Passed;
       return;
@@ -247,7 +247,7 @@ class Column {
     items.push_back({surface, {lowest(f, r), highest(f, r), std::nullopt}});
   }
   // Bounds of where the surface is in the cell, if it is.
-  static double lowest(const UnitQuadric& f, const Rectangle& r) {
+  static double lowest(const UnitSurface& f, const Rectangle& r) {
     double low = -1;
     double step = 1;
     for (int i = 0; i < 6; ++i, step /= 2) {
@@ -255,7 +255,7 @@ class Column {
     }
     return low;
   }
-  static double highest(const UnitQuadric& f, const Rectangle& r) {
+  static double highest(const UnitSurface& f, const Rectangle& r) {
     double high = 1;
     double step = 1;
     for (int i = 0; i < 6; ++i, step /= 2) {
@@ -442,7 +442,7 @@ class Column {
   }
 
   std::size_t axis_;
-  std::vector<UnitQuadric> surfaces_;
+  std::vector<UnitSurface> surfaces_;
   PassedTree tree_;
 };
 

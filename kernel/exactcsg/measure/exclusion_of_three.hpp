@@ -50,8 +50,8 @@ inline bool exclude_each_other(const domain::LinearForm<3>& p, const domain::Lin
 // f + mu g >= 0 in the box for one of the factors that look promising.
 inline bool have_nonnegative_sum(const domain::Quadric<3>& f, const domain::Quadric<3>& g,
                                  const Box3& box) {
-  const auto middle = balance(ApproximateQuadric(unit_quadric(f, box), false),
-                              ApproximateQuadric(unit_quadric(g, box), false));
+  const auto middle = balance(ApproximateQuadric(UnitSurface(unit_quadric(f, box)), false),
+                              ApproximateQuadric(UnitSurface(unit_quadric(g, box)), false));
   if (!middle || !(middle->factor > 0x1p-60 && middle->factor < 0x1p60)) return false;
   return domain::range(f + simple_fraction(middle->factor) * g, box).minimum >= 0;
 }

@@ -62,6 +62,10 @@ inline std::optional<AxisPlane> axis_plane(const domain::HalfSpace<3>& half_spac
   return result;
 }
 
+inline std::optional<AxisPlane> axis_plane(const domain::SurfaceHalfSpace& half_space) {
+  return half_space.quadric() != nullptr ? axis_plane(*half_space.quadric()) : std::nullopt;
+}
+
 // The planes x_axis = c that are the surface, or a part of it; of two that are not rational, none.
 inline std::vector<AxisPlane> axis_planes(const domain::HalfSpace<3>& half_space) {
   if (const auto plane = axis_plane(half_space)) return {*plane};
@@ -92,15 +96,31 @@ inline std::vector<AxisPlane> axis_planes(const domain::HalfSpace<3>& half_space
   return result;
 }
 
-// A polynomial in the box's own coordinates that is negative inside the half-space, positive
+inline std::vector<AxisPlane> axis_planes(const domain::SurfaceHalfSpace& half_space) {
+  return half_space.quadric() != nullptr ? axis_planes(*half_space.quadric())
+                                         : std::vector<AxisPlane>();
+}
+
+// A function in the box's own coordinates that is negative inside the half-space, positive
 // outside.
-inline std::optional<UnitQuadric> local_polynomial(const domain::HalfSpace<3>& half_space,
+inline std::optional<UnitSurface> local_polynomial(const domain::HalfSpace<3>& half_space,
                                                    const Box3& box) {
   if (half_space.nappe() && domain::range(*half_space.nappe(), box).maximum > 0) {
     return std::nullopt;
   }
-  const UnitQuadric f = unit_quadric(half_space.polynomial(), box);
+  const UnitSurface f(unit_quadric(half_space.polynomial(), box));
   return half_space.is_complement() ? -f : f;
+}
+
+// None if the box meets the axis.
+inline std::optional<UnitSurface> local_polynomial(const domain::Torus& torus, const Box3& box) {
+  const std::optional<UnitSurface> f =
+      UnitSurface::difference(unit_quadric(torus.base(), box), unit_quadric(torus.radicand(), box));
+  return f && torus.is_complement() ? -*f : f;
+}
+inline std::optional<UnitSurface> local_polynomial(const domain::SurfaceHalfSpace& half_space,
+                                                   const Box3& box) {
+  return half_space.visit([&](const auto& kind) { return local_polynomial(kind, box); });
 }
 
 inline std::pair<Box3, Box3> divided(const Box3& box, const AxisPlane& cut) {
@@ -111,23 +131,50 @@ inline std::pair<Box3, Box3> divided(const Box3& box, const AxisPlane& cut) {
   return {Box3(box.lower(), upper_of_first), Box3(lower_of_second, box.upper())};
 }
 
-// By how much the polynomial may differ along each axis from what it is in the middle of the box.
-inline std::array<double, 3> variations(const domain::HalfSpace<3>& half_space, const Box3& box) {
+// The middle of a box and half its sides. [Approximate]
+struct MiddleOfBox {
   std::array<CertifiedDouble, 3> middle;
   std::array<double, 3> half{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double low = box.lower().approximate()[i].value;
-    const double high = box.upper().approximate()[i].value;
-    middle[i] = exactly(low / 2 + high / 2);
-    half[i] = high / 2 - low / 2;
+
+  explicit MiddleOfBox(const Box3& box) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double low = box.lower().approximate()[i].value;
+      const double high = box.upper().approximate()[i].value;
+      middle[i] = exactly(low / 2 + high / 2);
+      half[i] = high / 2 - low / 2;
+    }
   }
+};
+
+// By how much the function may differ along each axis from what it is in the middle of the box,
+// roughly.
+inline std::array<double, 3> variations(const domain::HalfSpace<3>& half_space, const Box3& box) {
+  const MiddleOfBox at(box);
   std::array<double, 3> result{};
   for (std::size_t i = 0; i < 3; ++i) {
     std::array<double, 3> along{};
-    along[i] = half[i];
-    result[i] = half_space.polynomial().variation(middle, along);
+    along[i] = at.half[i];
+    result[i] = half_space.polynomial().variation(at.middle, along);
   }
   return result;
+}
+inline std::array<double, 3> variations(const domain::Torus& torus, const Box3& box) {
+  const MiddleOfBox at(box);
+  const double root = square_root(torus.radicand().approximate(at.middle)).value;
+  std::array<double, 3> result{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::array<double, 3> along{};
+    along[i] = at.half[i];
+    const double of_root =
+        root > 0 ? torus.radicand().approximate_slope(i, at.middle).value / (2 * root) : 0;
+    const double slope = torus.base().approximate_slope(i, at.middle).value - of_root;
+    result[i] = std::abs(slope) * at.half[i] + torus.base().curvature(along);
+  }
+  return result;
+}
+inline std::array<double, 3> variations(const domain::SurfaceHalfSpace& half_space,
+                                        const Box3& box) {
+  return half_space.visit([&](const auto& kind) { return variations(kind, box); });
 }
 
 // The axis along which the surfaces vary most, or, of other primitives, the longest of the box.
@@ -189,18 +236,14 @@ std::optional<AxisPlane> axis_cut(const SurfaceTable<P>& table, const LiteralTre
 
 // How well the surfaces are graphs over the face across an axis: the least ratio of the derivative
 // along the axis to those across it; 0 if it may vanish in the cell.
-inline double graph_quality(const std::vector<UnitQuadric>& surfaces, std::size_t axis) {
+inline double graph_quality(const std::vector<UnitSurface>& surfaces, std::size_t axis) {
   double quality = HUGE_VAL;
-  for (const UnitQuadric& f : surfaces) {
-    std::array<double, 3> reach{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) reach[i] += 2 * magnitude(f.square[i][j]);
-    }
-    const CertifiedDouble along = widened(f.linear[axis], reach[axis]);
+  for (const UnitSurface& f : surfaces) {
+    const CertifiedDouble along = f.derivative_in_cell(axis);
     const double least = std::abs(along.value) * (1 - 0x1p-40) - along.error;
     if (!(least > 0)) return 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      if (i != axis) quality = std::min(quality, least / (magnitude(f.linear[i]) + reach[i]));
+      if (i != axis) quality = std::min(quality, least / magnitude(f.derivative_in_cell(i)));
     }
   }
   return quality;
@@ -211,11 +254,13 @@ template <SpatialDomain P>
 std::optional<Column> column_of(const SurfaceTable<P>& table, const LiteralTree& tree,
                                 const Box3& box) {
   constexpr std::size_t most_surfaces = 12;
+  // Where tori are, larger cells with steeper graphs leave less to do in all (measured).
   constexpr double least_quality = 0.25;
+  constexpr double least_quality_of_tori = 0.0625;
   if constexpr (requires(const P& p) { local_polynomial(p, box); }) {
     const auto numbers = surfaces_of(tree, most_surfaces);
     if (!numbers) return std::nullopt;
-    std::vector<UnitQuadric> surfaces;
+    std::vector<UnitSurface> surfaces;
     for (const std::uint32_t number : *numbers) {
       const auto f = local_polynomial(table[number], box);
       if (!f) return std::nullopt;
@@ -230,10 +275,13 @@ std::optional<Column> column_of(const SurfaceTable<P>& table, const LiteralTree&
         axis = i;
       }
     }
-    if (best < least_quality) return std::nullopt;
+    const bool has_torus = std::any_of(surfaces.begin(), surfaces.end(), [](const UnitSurface& f) {
+      return f.radicand().has_value();
+    });
+    if (best < (has_torus ? least_quality_of_tori : least_quality)) return std::nullopt;
     std::vector<bool> is_falling;
-    for (UnitQuadric& f : surfaces) {
-      is_falling.push_back(f.linear[axis].value < 0);
+    for (UnitSurface& f : surfaces) {
+      is_falling.push_back(f.derivative_in_cell(axis).value < 0);
       f = (is_falling.back() ? -f : f).with_height(axis);
     }
     PassedTree passed = csg::flatten(tree, [&](const Literal& literal) {

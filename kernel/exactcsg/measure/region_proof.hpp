@@ -60,6 +60,7 @@
 #include "exactcsg/measure/certified_measure.hpp"
 #include "exactcsg/measure/exclusion_of_three.hpp"
 #include "exactcsg/measure/local_region.hpp"
+#include "exactcsg/measure/torus_exclusion.hpp"
 #include "exactcsg/measure/witness_search.hpp"
 
 namespace exactcsg::measure {
@@ -106,6 +107,12 @@ inline bool exclude_each_other(const domain::HalfSpace<3>& a, const domain::Half
     return Rational(half_space.is_complement() ? -1 : 1) * half_space.polynomial();
   };
   return domain::range(polynomial(a) + factor * polynomial(b), box).minimum >= 0;
+}
+
+inline bool exclude_each_other(const domain::SurfaceHalfSpace& a, const domain::SurfaceHalfSpace& b,
+                               const Rational& factor, const Box3& box) {
+  return a.quadric() != nullptr && b.quadric() != nullptr &&
+         exclude_each_other(*a.quadric(), *b.quadric(), factor, box);
 }
 
 template <SpatialDomain P>
@@ -320,7 +327,7 @@ class RegionProver {
   bool all_excluded(const Box3& box, const Locals& local,
                     const std::vector<std::uint32_t>& surfaces,
                     const std::vector<Sides>& violations) {
-    std::vector<UnitQuadric> polynomials;
+    std::vector<UnitSurface> polynomials;
     for (const std::uint32_t surface : surfaces) {
       const auto f = local_polynomial(table_[surface], box);
       if (!f) return false;
@@ -337,7 +344,7 @@ class RegionProver {
   }
 
   bool is_excluded(const Box3& box, const Locals& local, const std::vector<std::uint32_t>& surfaces,
-                   const std::vector<UnitQuadric>& polynomials, Sides sides) {
+                   const std::vector<UnitSurface>& polynomials, Sides sides) {
     const auto is_in = [&](std::size_t i) { return (sides >> i & 1U) != 0; };
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       for (std::size_t j = i + 1; j < surfaces.size(); ++j) {
@@ -388,6 +395,9 @@ class RegionProver {
 
   bool exclude(const PairKey& key, const ApproximateQuadric& f, const ApproximateQuadric& g,
                const std::optional<Balance>& middle) const {
+    if constexpr (std::convertible_to<P, domain::SurfaceHalfSpace>) {
+      if (exclude_round_axis(inside(key.first), inside(key.second), box_)) return true;
+    }
     if (const auto factor = cancelling_factor(f, g)) {
       if (is_nowhere_negative(key, simple_fraction(*factor))) return true;
     }
@@ -416,7 +426,7 @@ class RegionProver {
     return result;
   }
 
-  void try_inside(const Box3& box, const Locals& local, const std::vector<UnitQuadric>& polynomials,
+  void try_inside(const Box3& box, const Locals& local, const std::vector<UnitSurface>& polynomials,
                   Sides sides) {
     std::vector<ApproximateQuadric> negative;
     for (std::size_t i = 0; i < polynomials.size(); ++i) {

@@ -7,8 +7,8 @@
 // LAW surface_table.1  the literal of p has the points of table[literal.surface], or of the closure
 //                      of its complement if it is complemented.
 // LAW surface_table.2  half-spaces that are equal as point sets, or closed complements of each
-//                      other, have one surface if their polynomials are proportional. Primitives
-//                      of other types have one each.
+//                      other, have one surface if their polynomials are proportional, or they are
+//                      tori. Primitives of other types have one each.
 // COST: O(distinct nodes) for a tree, each primitive O(log surfaces) comparisons.
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "exactcsg/csg/tree.hpp"
-#include "exactcsg/domain/half_space.hpp"
+#include "exactcsg/domain/surface_half_space.hpp"
 
 namespace exactcsg::measure {
 
@@ -77,6 +77,20 @@ inline SurfaceKey surface_key(const domain::HalfSpace<3>& half_space) {
     key.is_reversed = !key.is_reversed;
   }
   return key;
+}
+
+// Base and radicand are those of one surface only (torus.hpp). One coefficient more than any
+// quadric has.
+inline SurfaceKey surface_key(const domain::Torus& torus) {
+  SurfaceKey key;
+  append_coefficients(torus.base(), key.coefficients);
+  append_coefficients(torus.radicand(), key.coefficients);
+  key.coefficients.emplace_back(1);
+  key.is_reversed = torus.is_complement();
+  return key;
+}
+inline SurfaceKey surface_key(const domain::SurfaceHalfSpace& half_space) {
+  return half_space.visit([](const auto& kind) { return surface_key(kind); });
 }
 
 }  // namespace detail

@@ -28,13 +28,16 @@ struct ApproximateQuadric {
   Position linear{};
   std::array<Position, 3> square{};
 
-  // Of f, or of -f.
-  explicit ApproximateQuadric(const UnitQuadric& f, bool is_negated) {
+  // Of f, or of -f; to second order about the cell's centre if f is no polynomial.
+  explicit ApproximateQuadric(const UnitSurface& f, bool is_negated) {
     const double sign = is_negated ? -1 : 1;
-    constant = sign * f.constant.value;
+    const UnitSurface::Vector centre{};
+    constant = sign * f(centre).value;
     for (std::size_t i = 0; i < 3; ++i) {
-      linear[i] = sign * f.linear[i].value;
-      for (std::size_t j = 0; j < 3; ++j) square[i][j] = sign * f.square[i][j].value;
+      linear[i] = sign * f.derivative(i, centre).value;
+      for (std::size_t j = 0; j < 3; ++j) {
+        square[i][j] = sign * f.half_second_derivative(i, j, centre).value;
+      }
     }
   }
   double operator()(const Position& x) const {

@@ -21,15 +21,15 @@
 #include <vector>
 
 #include "exactcsg/csg/tree.hpp"
-#include "exactcsg/domain/half_space.hpp"
+#include "exactcsg/domain/surface_half_space.hpp"
 #include "exactcsg/io/model.hpp"
 
 namespace exactcsg::io::openmc {
 
 using Id = std::int32_t;
 using Index = std::uint32_t;
-// What a side of a surface is. One name, so that surfaces of other kinds find one place to enter.
-using HalfSpace = domain::HalfSpace<3>;
+// What a side of a surface is.
+using HalfSpace = domain::SurfaceHalfSpace;
 using Point = domain::Point<3>;
 
 enum class Boundary : unsigned char { Transmission, Vacuum, Reflective, White, Periodic };

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "exactcsg/number/certified_root.hpp"
+
 namespace exactcsg::io::openmc {
 
 namespace {
@@ -16,10 +18,33 @@ std::array<double, 2> range_along(double a, double b, double reach) {
   return range;
 }
 
+csg::Membership class_in(const domain::Torus& torus, const CertifiedPoint& point) {
+  const CertifiedDouble value =
+      torus.base().approximate(point) - square_root(torus.radicand().approximate(point));
+  if (value.value > value.error) return csg::Membership::Out;
+  return -value.value > value.error ? csg::Membership::In : csg::Membership::Unknown;
+}
+
+csg::Membership class_in(const domain::Torus& torus, const std::array<double, 3>& lower,
+                         const std::array<double, 3>& upper) {
+  domain::Coordinates<3> low;
+  domain::Coordinates<3> high;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(lower[i] < upper[i])) return csg::Membership::Unknown;
+    low[i] = rational_of(lower[i]);
+    high[i] = rational_of(upper[i]);
+  }
+  return domain::classify(torus, domain::Box<3>(low, high));
+}
+
 }  // namespace
 
 SurfaceFilter::SurfaceFilter(const HalfSpace& half_space) {
-  const domain::Quadric<3>& f = half_space.polynomial();
+  if (half_space.torus() != nullptr) {
+    torus_ = *half_space.torus();
+    return;
+  }
+  const domain::Quadric<3>& f = half_space.quadric()->polynomial();
   const auto rounded = [&](const Rational& coefficient) {
     const double value = nearest_double(coefficient);
     is_usable_ = is_usable_ && (coefficient == 0 || std::abs(value) > 1e-100);
@@ -33,6 +58,7 @@ SurfaceFilter::SurfaceFilter(const HalfSpace& half_space) {
 }
 
 csg::Membership SurfaceFilter::classify(const CertifiedPoint& point) const {
+  if (torus_) return class_in(*torus_, point);
   double value = constant_;
   double magnitude = std::abs(constant_);
   double reach = 0;
@@ -59,6 +85,7 @@ csg::Membership SurfaceFilter::classify(const CertifiedPoint& point) const {
 
 csg::Membership SurfaceFilter::classify(const std::array<double, 3>& lower,
                                         const std::array<double, 3>& upper) const {
+  if (torus_) return class_in(*torus_, lower, upper);
   double low = constant_;
   double high = 0;  // above low
   double magnitude = std::abs(constant_);

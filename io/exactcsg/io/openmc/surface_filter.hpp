@@ -7,6 +7,7 @@
 //                       interior or the exterior; Unknown of others.
 
 #include <array>
+#include <optional>
 
 #include "exactcsg/csg/membership.hpp"
 #include "exactcsg/io/openmc/model.hpp"
@@ -27,6 +28,7 @@ class SurfaceFilter {
                            const std::array<double, 3>& upper) const;
 
  private:
+  std::optional<domain::Torus> torus_;  // the rest is a quadric's
   bool is_usable_ = true;  // false: the doubles are too small to be close to the coefficients
   double constant_ = 0;
   std::array<double, 3> linear_{};

@@ -106,6 +106,20 @@ Quadric<3> quadric_of(std::span<const Rational> c) {
   return {std::move(square), LinearForm<3>{{c[6], c[7], c[8]}, c[9]}};
 }
 
+// Without a major radius it is an ellipsoid.
+HalfSpace torus_of(const Kind& kind, std::span<const Rational> c) {
+  const domain::Axis axis = axis_of(kind, c);
+  const Rational& along = c[4];
+  const Rational& across = c[5];
+  if (c[3] > 0) return domain::make_torus(axis, c[3], along, across);
+  domain::Coordinates<3> squares;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rational& semi_axis = i == kind.axis ? along : across;
+    squares[i] = semi_axis * semi_axis;
+  }
+  return domain::make_ellipsoid<3>(axis.point, squares);
+}
+
 // REQUIRES what check has seen.
 HalfSpace half_space_of(const Kind& kind, std::span<const Rational> c) {
   switch (kind.shape) {
@@ -122,11 +136,12 @@ HalfSpace half_space_of(const Kind& kind, std::span<const Rational> c) {
       return domain::make_cylinder(axis_of(kind, c), Rational(c[2] * c[2]));
     case Shape::Cone:
       return domain::make_double_cone(axis_of(kind, c), c[3]);
-    case Shape::Quadric:
     case Shape::Torus:
+      return torus_of(kind, c);
+    case Shape::Quadric:
       break;
   }
-  return HalfSpace(quadric_of(c));
+  return domain::HalfSpace<3>(quadric_of(c));
 }
 
 void check_not_below_zero(const Field& word, const Rational& value, std::string_view what) {
@@ -235,10 +250,6 @@ Surface read_surface(const Element& element) {
               fmt::format("{} of a {}", wanted, kind.name));
   }
   check(kind, words, coefficients);
-  if (kind.shape == Shape::Torus) {
-    element.fail(ErrorId::UnsupportedNode, fmt::format("the {} {}", kind.name, number),
-                 "a surface of degree at most two");
-  }
   const std::optional<Field> boundary = element.field("boundary");
   HalfSpace negative = half_space_of(kind, coefficients);
   return {number,

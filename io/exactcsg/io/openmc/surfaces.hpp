@@ -5,8 +5,8 @@
 //
 // plane A B C D; x-, y-, z-plane x0; sphere x0 y0 z0 r; x-, y-, z-cylinder: the two coordinates of
 // the axis, then r; x-, y-, z-cone x0 y0 z0 r2, both nappes; quadric A B C D E F G H J K, where D,
-// E and F belong to xy, yz and xz. Tori are checked and then refused: their half-spaces are of
-// degree four.
+// E and F belong to xy, yz and xz; x-, y-, z-torus x0 y0 z0 A B C: the major radius, 0 of an
+// ellipsoid, and the semi-axes along the axis and across it.
 
 #include "exactcsg/io/openmc/located_xml.hpp"
 #include "exactcsg/io/openmc/model.hpp"
@@ -14,8 +14,7 @@
 namespace exactcsg::io::openmc {
 
 // THROWS Error with a place: UnknownNode (type, boundary), MissingValue, WrongCount, BadArgument (a
-// negative radius), DegenerateSurface (no surface has this equation), UnsupportedNode (a torus),
-// and those of numbers.
+// negative radius), DegenerateSurface (no surface has this equation), and those of numbers.
 Surface read_surface(const Element& element);
 
 // True if f is below 0 somewhere and above 0 somewhere: then it is round each of its zeros, and

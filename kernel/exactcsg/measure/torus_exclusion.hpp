@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Whether a torus and another surface's half-space exclude each other, seen from the torus's axis.
+// [Exact]
+//
+// In the half-plane of rho and w (torus_frame.hpp) a torus is a disc: base - sqrt(radicand) is of
+// degree two there. So is any surface of revolution round the same axis, and another torus round
+// it; and of a plane, a sphere or another quadric whose terms of degree two have the axis's
+// directions, the least value at each (rho, w) is bounded from below by one. f + mu g >= 0 for two
+// such polynomials, on the rectangle of all rho and w in the box, proves that f < 0 and g < 0
+// exclude each other.
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "exactcsg/domain/surface_half_space.hpp"
+#include "exactcsg/domain/torus_frame.hpp"
+#include "exactcsg/measure/witness_search.hpp"
+
+namespace exactcsg::measure::detail {
+
+// Bounds of a root, equal if it is rational.
+inline Enclosure root_bounds(const Rational& square) {
+  constexpr int bits = 64;
+  return enclose(QuadraticNumber(0, 1, square), bits);
+}
+
+// radial rho^2 + slope rho + square w^2 + linear w + constant, as a polynomial in (rho, w)
+inline domain::Quadric<2> in_half_plane(const domain::AxialForm& form, const Rational& slope) {
+  domain::Quadric<2>::Matrix square;
+  square[0][0] = form.radial;
+  square[1][1] = form.square;
+  return {std::move(square), domain::LinearForm<2>{{slope, form.linear}, form.constant}};
+}
+
+// A lower bound of what is negative inside the half-space; nullopt if there is none of this kind.
+inline std::optional<domain::Quadric<2>> lower_bound(const domain::TorusFrame& frame,
+                                                     const domain::HalfSpace<3>& half_space) {
+  const Rational sign = half_space.is_complement() ? -1 : 1;
+  const auto form = frame.form(sign * half_space.polynomial());
+  if (!form) return std::nullopt;
+  return in_half_plane(*form, Rational(-root_bounds(form->squared_slope).upper));
+}
+inline std::optional<domain::Quadric<2>> lower_bound(const domain::TorusFrame& frame,
+                                                     const domain::Torus& torus) {
+  if (!is_coaxial(frame, torus)) return std::nullopt;
+  const Rational sign = torus.is_complement() ? -1 : 1;
+  const Enclosure root = root_bounds(frame.form(torus.radicand())->radial);
+  return in_half_plane(*frame.form(sign * torus.base()),
+                       torus.is_complement() ? root.lower : Rational(-root.upper));
+}
+
+inline ApproximateQuadric approximate_quadric(const domain::Quadric<2>& f) {
+  UnitQuadric result;
+  result.constant = certified_double_of(f.linear().constant);
+  for (std::size_t i = 0; i < 2; ++i) {
+    result.linear[i] = certified_double_of(f.linear().normal[i]);
+    for (std::size_t j = 0; j < 2; ++j) {
+      result.square[i][j] = certified_double_of(f.square()[i][j]);
+    }
+  }
+  return ApproximateQuadric(UnitSurface(result), false);
+}
+
+// f + mu g is nowhere negative in the rectangle, for one of the factors that look promising.
+inline bool have_nonnegative_sum(const domain::Quadric<2>& f, const domain::Quadric<2>& g,
+                                 const domain::Box<2>& rectangle) {
+  const ApproximateQuadric first = approximate_quadric(f);
+  const ApproximateQuadric second = approximate_quadric(g);
+  const auto holds = [&](const Rational& factor) {
+    return domain::range(f + factor * g, rectangle).minimum >= 0;
+  };
+  if (const auto factor = cancelling_factor(first, second)) {
+    if (holds(simple_fraction(*factor))) return true;
+  }
+  const std::optional<Balance> middle = balance(first, second);
+  if (!middle || !(middle->factor > 0x1p-60 && middle->factor < 0x1p60)) return false;
+  return holds(simple_fraction(middle->factor)) || holds(rational_of(middle->factor));
+}
+
+// Their interiors have no common point in the box. False if that is not seen, or neither is a
+// torus.
+inline bool exclude_round_axis(const domain::SurfaceHalfSpace& a, const domain::SurfaceHalfSpace& b,
+                               const domain::Box<3>& box) {
+  const domain::Torus* torus = a.torus() != nullptr ? a.torus() : b.torus();
+  if (torus == nullptr) return false;
+  const domain::TorusFrame frame(*torus);
+  const auto bound = [&](const auto& kind) { return lower_bound(frame, kind); };
+  const auto f = a.visit(bound);
+  const auto g = b.visit(bound);
+  if (!f || !g) return false;
+  const domain::Range along = domain::range(domain::Quadric<3>(frame.along()), box);
+  const Rational squared_radius = domain::range(torus->radicand(), box).maximum / 4;
+  const domain::Box<2> rectangle(
+      domain::Point<2>(0, along.minimum),
+      domain::Point<2>(root_bounds(squared_radius).upper, along.maximum));
+  return have_nonnegative_sum(*f, *g, rectangle);
+}
+
+}  // namespace exactcsg::measure::detail
