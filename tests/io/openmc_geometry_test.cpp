@@ -7,6 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 
 #include "exactcsg/csg/membership.hpp"
@@ -523,6 +524,53 @@ RC_GTEST_PROP(OpenMcLocation, TheIndexAnswersAsAllCellsDo, ()) {
     }
     if (expected) RC_ASSERT(locator(point) == *expected);
   }
+}
+
+// A sector of a ring in a vessel of nested tori round three axes: an index is built (more than
+// twelve surfaces), and points are in the cells that their distances from the circles say.
+TEST(OpenMcLocation, OfTori) {
+  std::string body;
+  const std::array<const char*, 3> kinds{"x-torus", "y-torus", "z-torus"};
+  std::string outside;
+  for (int i = 0; i < 3; ++i) {
+    for (int layer = 1; layer <= 5; ++layer) {
+      const std::string id = std::to_string(10 * i + layer);
+      const std::string radius = "0." + std::to_string(layer);
+      body += "<surface id='" + id + "' type='" + kinds[static_cast<std::size_t>(i)] +
+              "' coeffs='0 0 " + std::to_string(8 * i) + " 2 " + radius + " " + radius + "'/>";
+      body += "<cell id='" + id + "' material='1' region='-" + id;
+      if (layer > 1) body += " " + std::to_string(10 * i + layer - 1);
+      body += "'/>";
+      if (layer == 5) outside += " " + id;
+    }
+  }
+  body += "<cell id='100' material='2' region='" + outside + "'/>";
+  const Model model = read(body);
+  const PointLocator locator(model);
+  int inside = 0;
+  std::mt19937_64 engine(3);
+  std::uniform_int_distribution<int> number(-3000, 3000);
+  const auto coordinate = [&] { return Rational(Rational(number(engine)) / 1000); };
+  for (int k = 0; k < 3000; ++k) {
+    const int i = k % 3;
+    const std::array<Rational, 3> local{coordinate(), coordinate(), coordinate()};
+    const Point point(local[0], local[1], Rational(local[2] + 8 * i));
+    double along = 0;
+    double square = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = nearest_double(local[static_cast<std::size_t>(axis)]);
+      (axis == i ? along : square) += axis == i ? x : x * x;
+    }
+    const double distance = std::hypot(std::sqrt(square) - 2, along);
+    const int layer = static_cast<int>(distance * 10) + 1;
+    if (std::abs(distance * 10 - std::round(distance * 10)) < 1e-9) continue;
+    const Location found = locator(point);
+    ASSERT_EQ(found.verdict, PointVerdict::InCell);
+    ASSERT_EQ(model.cells[found.cells.front()].id, layer <= 5 ? 10 * i + layer : 100);
+    ASSERT_EQ(found, locate(model, point));
+    inside += layer <= 5 ? 1 : 0;
+  }
+  EXPECT_GT(inside, 50);
 }
 
 // --- the file

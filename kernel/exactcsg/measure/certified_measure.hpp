@@ -12,7 +12,7 @@
 //                          arguments alone. Sets bounded by planes across the axes alone have
 //                          lower == upper.
 // REQUIRES the primitives model domain::Domain in space. Any are measured; those whose polynomial
-// is known (domain::HalfSpace<3>) are measured well:
+// is known (half-spaces of quadrics and tori) are measured well:
 // COST: the box is divided into cells, those first whose bounds are furthest apart; in each the
 // tree is pruned. A cell in which every surface left is a graph over the same face becomes a
 // column (column.hpp): only the face is divided further. There the width falls, in the number n of
