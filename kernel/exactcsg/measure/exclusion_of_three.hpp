@@ -17,7 +17,7 @@
 #include "exactcsg/domain/surface_half_space.hpp"
 #include "exactcsg/domain/vector.hpp"
 #include "exactcsg/measure/local_region.hpp"
-#include "exactcsg/measure/witness_search.hpp"
+#include "exactcsg/measure/nonnegative_sum.hpp"
 
 namespace exactcsg::measure::detail {
 
@@ -47,15 +47,6 @@ inline bool exclude_each_other(const domain::LinearForm<3>& p, const domain::Lin
   return false;
 }
 
-// f + mu g >= 0 in the box for one of the factors that look promising.
-inline bool have_nonnegative_sum(const domain::Quadric<3>& f, const domain::Quadric<3>& g,
-                                 const Box3& box) {
-  const auto middle = balance(ApproximateQuadric(UnitSurface(unit_quadric(f, box)), false),
-                              ApproximateQuadric(UnitSurface(unit_quadric(g, box)), false));
-  if (!middle || !(middle->factor > 0x1p-60 && middle->factor < 0x1p60)) return false;
-  return domain::range(f + simple_fraction(middle->factor) * g, box).minimum >= 0;
-}
-
 inline bool exclude_each_other(const domain::SurfaceHalfSpace& a, const domain::SurfaceHalfSpace& b,
                                const domain::SurfaceHalfSpace& c, const Box3& box) {
   std::array<std::optional<domain::Quadric<3>>, 3> f{inside_polynomial(a), inside_polynomial(b),
@@ -69,7 +60,11 @@ inline bool exclude_each_other(const domain::SurfaceHalfSpace& a, const domain::
   const domain::LinearForm<3>& p = f[0]->linear();
   const domain::LinearForm<3>& q = f[1]->linear();
   if (f[2]->is_linear()) return exclude_each_other(p, q, f[2]->linear());
-  return have_nonnegative_sum(*f[2], Rational(-1) * domain::product(p, q), box);
+  const domain::Quadric<3> g = Rational(-1) * domain::product(p, q);
+  const auto approximate = [&](const domain::Quadric<3>& polynomial) {
+    return ApproximateQuadric(UnitSurface(unit_quadric(polynomial, box)), false);
+  };
+  return have_nonnegative_sum(*f[2], g, {approximate(*f[2]), approximate(g)}, box);
 }
 
 }  // namespace exactcsg::measure::detail

@@ -17,7 +17,7 @@
 
 #include "exactcsg/domain/surface_half_space.hpp"
 #include "exactcsg/domain/torus_frame.hpp"
-#include "exactcsg/measure/witness_search.hpp"
+#include "exactcsg/measure/nonnegative_sum.hpp"
 
 namespace exactcsg::measure::detail {
 
@@ -64,22 +64,6 @@ inline ApproximateQuadric approximate_quadric(const domain::Quadric<2>& f) {
   return ApproximateQuadric(UnitSurface(result), false);
 }
 
-// f + mu g is nowhere negative in the rectangle, for one of the factors that look promising.
-inline bool have_nonnegative_sum(const domain::Quadric<2>& f, const domain::Quadric<2>& g,
-                                 const domain::Box<2>& rectangle) {
-  const ApproximateQuadric first = approximate_quadric(f);
-  const ApproximateQuadric second = approximate_quadric(g);
-  const auto holds = [&](const Rational& factor) {
-    return domain::range(f + factor * g, rectangle).minimum >= 0;
-  };
-  if (const auto factor = cancelling_factor(first, second)) {
-    if (holds(simple_fraction(*factor))) return true;
-  }
-  const std::optional<Balance> middle = balance(first, second);
-  if (!middle || !(middle->factor > 0x1p-60 && middle->factor < 0x1p60)) return false;
-  return holds(simple_fraction(middle->factor)) || holds(rational_of(middle->factor));
-}
-
 // Their interiors have no common point in the box. False if that is not seen, or neither is a
 // torus.
 inline bool exclude_round_axis(const domain::SurfaceHalfSpace& a, const domain::SurfaceHalfSpace& b,
@@ -96,7 +80,8 @@ inline bool exclude_round_axis(const domain::SurfaceHalfSpace& a, const domain::
   const domain::Box<2> rectangle(
       domain::Point<2>(0, along.minimum),
       domain::Point<2>(root_bounds(squared_radius).upper, along.maximum));
-  return have_nonnegative_sum(*f, *g, rectangle);
+  return have_nonnegative_sum(*f, *g, {approximate_quadric(*f), approximate_quadric(*g)},
+                              rectangle);
 }
 
 }  // namespace exactcsg::measure::detail
