@@ -8,6 +8,7 @@
 
 #include "cli/openmc.hpp"
 #include "exactcsg/io/half_space_tree.hpp"
+#include "exactcsg/io/openmc/universes.hpp"
 #include "exactcsg/io/openmc/visible_set.hpp"
 #include "exactcsg/measure/decimal_bounds.hpp"
 #include "exactcsg/measure/pair_proof.hpp"
@@ -35,13 +36,9 @@ std::optional<GeometryName> geometry_name(const std::string& name) {
   return result;
 }
 
-HalfSpaceRegion region_of(const domain::Solid3& planar) {
-  return csg::map(planar, [](const auto& half_space) { return io::openmc::HalfSpace(half_space); });
-}
-
 HalfSpaceRegion read_region(Context& context, const std::string& name) {
   const auto geometry = geometry_name(name);
-  if (!geometry) return region_of(io::half_space_tree(read(context, name).solid));
+  if (!geometry) return io::openmc::region_of(io::half_space_tree(read(context, name).solid));
   const io::openmc::Model model = read_geometry(context, geometry->file);
   return geometry->cell ? cell_set(model, *geometry->cell) : material_set(model);
 }

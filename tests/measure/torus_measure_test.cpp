@@ -9,6 +9,8 @@
 #include <cmath>
 #include <variant>
 
+#include "exactcsg/measure/bounding_box.hpp"
+#include "exactcsg/measure/moments.hpp"
 #include "measure/curved_tori.hpp"
 #include "measure/random_solids.hpp"
 
@@ -157,6 +159,50 @@ TEST(TorusSurfaces, EqualOnesAreOne) {
   EXPECT_EQ(table.add(complement(again)), (Literal{first.surface, true}));
   EXPECT_NE(table.add(ring_of(5, 1)).surface, first.surface);
   EXPECT_EQ(table.size(), 2U);
+}
+
+// --- extents and moments
+
+// LAW bounding_box.1. As of other solids (bounding_box_test.cpp), the box is not much larger.
+TEST(TorusExtent, ABoxHoldsIt) {
+  for (const KnownTorus& known : known_tori()) {
+    const Extent extent = bounding_box(known.set);
+    ASSERT_EQ(extent.kind, ExtentKind::Bounded) << known.name;
+    EXPECT_TRUE(encloses(volume(known.set, *extent.box, to_width(1e-2)).value, known.volume))
+        << known.name;
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_LE(extent.box->upper()[i] - extent.box->lower()[i],
+                4 * (known.box.upper()[i] - known.box.lower()[i]))
+          << known.name;
+    }
+  }
+}
+
+TEST(TorusExtent, OfComplementsAndBesideOtherSurfaces) {
+  const TorusSet ring = set(ring_of(5, 2));
+  EXPECT_EQ(bounding_box(csg::complement(ring)).kind, ExtentKind::NotBounded);
+  EXPECT_EQ(bounding_box(csg::unite(ring, half_space({1, 0, 0}, 0))).kind, ExtentKind::NotBounded);
+  const Extent hole =
+      bounding_box(csg::intersect(csg::complement(ring), set(domain::make_sphere({0, 0, 0}, 9))));
+  ASSERT_EQ(hole.kind, ExtentKind::Bounded);
+  EXPECT_LE(hole.box->lower()[0], -3);
+  EXPECT_GE(hole.box->upper()[2], 3);
+  // Far from the origin: the box does not end before 1005 + 2.
+  const TorusSet far = set(domain::make_torus({{1000, 0, 0}, {0, 1, 0}}, 5, 2, 2));
+  const Extent there = bounding_box(far);
+  ASSERT_EQ(there.kind, ExtentKind::Bounded);
+  EXPECT_GE(there.box->upper()[0], 1007);
+  EXPECT_LE(there.box->lower()[0], 993);
+}
+
+// By Pappus with rho symmetric about 5, the integral of z^2 is 10 pi times that over the disc,
+// pi 2^4 / 4; the centroid is the centre.
+TEST(TorusMoments, AboutThePlaneOfTheRing) {
+  const TorusSet ring = set(ring_of(5, 2));
+  const Box<3> box(point(-8, -8, -4), point(8, 8, 4));
+  const CertifiedMeasure second = moment(ring, box, {0, 0, 2}, to_width(1e-4));
+  EXPECT_EQ(second.stop, StopReason::Width);
+  EXPECT_TRUE(encloses(second.value, 40 * std::numbers::pi * std::numbers::pi));
 }
 
 // --- proofs

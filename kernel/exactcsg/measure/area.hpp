@@ -12,7 +12,8 @@
 // LAW area.1  the area lies in value.
 // LAW area.2  as LAW certified_measure.2 and certified_measure.3.
 // LAW area.3  area(complement(tree), box) is the same.
-// REQUIRES domain::HalfSpace<3>, or primitives with overloads of what is called here.
+// REQUIRES domain::HalfSpace<3>, or primitives with overloads of what is called here. Trees with
+// tori have none and do not compile: what a plane across the axes cuts of a torus is no quadric.
 // COST: as volume (certified_measure.hpp). The width falls, in the number n of cells, as n^-2: that
 // is what edges cost, where two surfaces cross or one leaves a column; as n^-3.5 within a graph.
 // Surfaces that share a piece and have other polynomials leave bounds apart by the area of that

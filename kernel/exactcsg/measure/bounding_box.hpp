@@ -14,7 +14,7 @@
 //                     so slowly that it is not proved.
 // LAW bounding_box.4  sides that are bounded by planes across an axis, and by nothing else, are
 //                     those planes.
-// REQUIRES half-spaces of degree two, or primitives with an overload of beyond().
+// REQUIRES half-spaces of degree two or of tori, or primitives with an overload of beyond().
 //
 // Method: beyond the cube of half side R a point is seen from the origin: where |x_axis| = m is its
 // greatest coordinate, at (u, v, w) = (x_j / m, x_k / m, 1 / m), in a box with 0 < w < 1 / R. There
@@ -82,14 +82,24 @@ inline domain::Solid3 seen_from(const Outlook& outlook, const domain::HalfSpace<
   return half_space.is_complement() ? csg::complement(std::move(seen)) : seen;
 }
 
+// REQUIRES is_seen_from_afar(half_space)
+inline domain::Solid3 seen_from(const Outlook& outlook,
+                                const domain::SurfaceHalfSpace& half_space) {
+  return seen_from(outlook, *half_space.quadric());
+}
+
+inline bool is_seen_from_afar(const domain::HalfSpace<3>&) { return true; }
+inline bool is_seen_from_afar(const domain::SurfaceHalfSpace& half_space) {
+  return half_space.quadric() != nullptr;
+}
+
 template <SpatialDomain P>
 domain::Solid3 seen_from(const Outlook& outlook, const csg::BooleanTree<P>& tree) {
   return substituted(tree, [&](const P& primitive) { return seen_from(outlook, primitive); });
 }
 
 // About how far from the origin the surface's own features are. [Approximate]
-inline double size_of_coefficients(const domain::HalfSpace<3>& half_space) {
-  const domain::Quadric<3>& f = half_space.polynomial();
+inline double size_of_coefficients(const domain::Quadric<3>& f) {
   double square = 0;
   double linear = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -99,6 +109,15 @@ inline double size_of_coefficients(const domain::HalfSpace<3>& half_space) {
   const double constant = std::abs(nearest_double(f.linear().constant));
   if (square == 0) return linear > 0 ? constant / linear : 0;
   return std::max(linear / square, std::sqrt(constant / square));
+}
+inline double size_of_coefficients(const domain::HalfSpace<3>& half_space) {
+  return size_of_coefficients(half_space.polynomial());
+}
+inline double size_of_coefficients(const domain::Torus& torus) {
+  return size_of_coefficients(torus.base());
+}
+inline double size_of_coefficients(const domain::SurfaceHalfSpace& half_space) {
+  return half_space.visit([](const auto& kind) { return size_of_coefficients(kind); });
 }
 
 template <SpatialDomain P>
@@ -115,10 +134,45 @@ inline csg::Membership beyond(const Rational&, const domain::HalfSpace<3>&) {
   return csg::Membership::Unknown;
 }
 
+// Is the ellipsoid where f is not positive inside the cube of half side `reach` round the origin?
+// REQUIRES f's terms of degree two are a positive definite form
+inline bool is_ellipsoid_within(const Rational& reach, const domain::Quadric<3>& f) {
+  AffineMap half_gradient = AffineMap::identity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) half_gradient.m[i][j] = f.square()[i][j];
+    half_gradient.m[i][3] = f.linear().normal[i] / 2;
+  }
+  const AffineMap to_zero = inverse(half_gradient);
+  const domain::Point<3> centre(to_zero.m[0][3], to_zero.m[1][3], to_zero.m[2][3]);
+  const Rational depth = -f(centre.coordinates());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rational space = reach - abs(centre[i]);
+    if (space < 0 || space * space < depth * to_zero.m[i][i]) return false;
+  }
+  return true;
+}
+
+// With c^2 the squared ratio, a torus lies where rho^2 + z^2 <= (1 + c)^2; 2 c <= 1 + c^2.
+inline csg::Membership beyond(const Rational& reach, const domain::Torus& torus) {
+  domain::LinearForm<3> linear = torus.base().linear();
+  linear.constant -= 3 + torus.squared_ratio();
+  if (!is_ellipsoid_within(reach, {torus.base().square(), std::move(linear)})) {
+    return csg::Membership::Unknown;
+  }
+  return torus.is_complement() ? csg::Membership::In : csg::Membership::Out;
+}
+inline csg::Membership beyond(const Rational& reach, const domain::SurfaceHalfSpace& half_space) {
+  return half_space.visit([&](const auto& kind) { return beyond(reach, kind); });
+}
+
 template <SpatialDomain P>
 bool is_empty_beyond(const Rational& reach, const csg::BooleanTree<P>& tree) {
   const csg::BooleanTree<P> far =
       csg::prune(tree, [&](const P& primitive) { return beyond(reach, primitive); });
+  bool is_seen = true;
+  csg::for_each_primitive(
+      far, [&](const P& primitive) { is_seen = is_seen && is_seen_from_afar(primitive); });
+  if (!is_seen) return false;
   const domain::Box<3> view(domain::Point<3>(-1, -1, 0), domain::Point<3>(1, 1, 1 / reach));
   ProofLimits limits;
   limits.cells = 2000;

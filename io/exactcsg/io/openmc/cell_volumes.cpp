@@ -149,7 +149,8 @@ class InstanceCollector {
     for (std::size_t i = 0; i < 3; ++i) linear.m[i][3] = 0;
     if (linear == AffineMap::identity()) return result;
     // What the region is outside the box is not known any more.
-    result.region = csg::intersect(moved(map, domain::make_block(*clip.box)), result.region);
+    result.region =
+        csg::intersect(moved(map, region_of(domain::make_block(*clip.box))), result.region);
     return result;
   }
 

@@ -36,6 +36,10 @@ AffineMap translation(const domain::Coordinates<3>& offset) {
   return map;
 }
 
+HalfSpaceRegion region_of(const domain::Solid3& solid) {
+  return csg::map(solid, [](const domain::HalfSpace<3>& h) { return HalfSpace(h); });
+}
+
 HalfSpaceRegion moved(const AffineMap& map, const HalfSpaceRegion& region) {
   return csg::map(region, [&](const HalfSpace& h) { return apply(map, h); });
 }

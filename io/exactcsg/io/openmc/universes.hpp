@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "exactcsg/domain/bounded_primitives.hpp"
 #include "exactcsg/io/openmc/model.hpp"
 
 namespace exactcsg::io::openmc {
@@ -13,6 +14,7 @@ namespace exactcsg::io::openmc {
 std::vector<Index> universes_from_above(const Model& model);
 
 AffineMap translation(const domain::Coordinates<3>& offset);
+HalfSpaceRegion region_of(const domain::Solid3& solid);
 HalfSpaceRegion moved(const AffineMap& map, const HalfSpaceRegion& region);
 
 // The centre of a lattice's element as a translation of what it holds: lattices without layers

@@ -8,7 +8,7 @@
 
 #include "exactcsg/csg/prune.hpp"
 #include "exactcsg/csg/text.hpp"
-#include "exactcsg/domain/half_spaces.hpp"
+#include "exactcsg/domain/bounded_primitives.hpp"
 #include "exactcsg/io/openmc/lattices.hpp"
 #include "exactcsg/io/openmc/region_bounds.hpp"
 #include "exactcsg/io/openmc/universes.hpp"
@@ -25,19 +25,6 @@ constexpr std::size_t most_views = 2'000'000;
 
 HalfSpaceRegion pruned(const HalfSpaceRegion& region, const Box& box) {
   return csg::prune(region, [&](const HalfSpace& half_space) { return classify(half_space, box); });
-}
-
-HalfSpaceRegion region_of(const Box& box) {
-  std::vector<HalfSpaceRegion> sides;
-  for (std::size_t i = 0; i < 3; ++i) {
-    Coordinates normal;
-    normal[i] = -1;
-    sides.push_back(HalfSpaceRegion::primitive(domain::make_plane(normal, box.lower()[i])));
-    normal[i] = 1;
-    sides.push_back(
-        HalfSpaceRegion::primitive(domain::make_plane(normal, Rational(-box.upper()[i]))));
-  }
-  return HalfSpaceRegion::compose(csg::BooleanOperator::Intersection, std::move(sides));
 }
 
 // The images of boxes are boxes.
@@ -63,7 +50,8 @@ Box box_of_image(const AffineMap& map, const Box& box) {
 }
 
 Visible mapped(const AffineMap& map, Visible visible) {
-  if (!keeps_axes(map)) visible.window = csg::intersect(visible.window, region_of(visible.box));
+  if (!keeps_axes(map))
+    visible.window = csg::intersect(visible.window, region_of(domain::make_block(visible.box)));
   visible.box = box_of_image(map, visible.box);
   visible.window = pruned(moved(map, visible.window), visible.box);
   visible.from_root = map * visible.from_root;
