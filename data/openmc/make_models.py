@@ -456,6 +456,39 @@ def unused():
     return g.text()
 
 
+def torus_on_plate(about, height):
+    g = Geometry(about)
+    box(g, 101, 10 * CM, 10 * CM, "vacuum", "vacuum")
+    g.surface(1, "z-torus", [0, 0, height, 5 * CM, 2 * CM, 2 * CM])
+    g.surface(2, "z-plane", [0])
+    g.cell(1, "-1", material=1)
+    g.cell(2, "101 -102 103 -104 105 -2", material=2)
+    g.cell(3, "1 101 -102 103 -104 2 -106", material=3)
+    return g.text()
+
+
+def tokamak_sector(about, slip=0):
+    """A sector of atan(3/4) between reflective planes; elliptic tori round the axis."""
+    g = Geometry(about)
+    for number, (along, across) in enumerate(((3_000_000, 2_000_000), (3_300_000, 2_300_000), (4_000_000, 3_000_000)),
+                                             start=1):
+        g.surface(number, "z-torus", [0, 0, 0, 6 * CM, along, across])
+    if slip:
+        g.surface(22, "z-torus", [0, 0, 0, 6 * CM, 3_300_000, 2_300_000 + slip])
+    g.surface(4, "z-cylinder", [0, 0, CM])
+    g.surface(5, "z-cylinder", [0, 0, 12 * CM], "vacuum")
+    g.surface(6, "z-plane", [-8 * CM], "vacuum")
+    g.surface(7, "z-plane", [8 * CM], "vacuum")
+    g.surface(10, "y-plane", [0], "reflective")
+    g.surface(11, "plane", [3 * CM, -4 * CM, 0, 0], "reflective")
+    g.cell(1, "-1 10 11", material=1)
+    g.cell(2, "1 -2 10 11", material=2)
+    g.cell(3, f"{'22' if slip else '2'} -3 10 11", material=3)
+    g.cell(4, "-4 6 -7 10 11", material=4)
+    g.cell(5, "3 4 -5 6 -7 10 11", material="void")
+    return g.text()
+
+
 MODELS = {
     "pin_cell": pin_cell("A fuel pin with gap and cladding in a square of water."),
     "pin_cell_missing_cell": pin_cell("The pin cell without the cell between fuel and cladding.", with_gap=False),
@@ -499,6 +532,10 @@ MODELS = {
     "cone_on_slope": cone_on_slope(),
     "second_nappe": second_nappe(),
     "unused": unused(),
+    "torus_on_plate": torus_on_plate("A torus that touches the plate below it along a circle.", 2 * CM),
+    "torus_in_plate": torus_on_plate("The same, lower by 1e-6.", 2 * CM - 1),
+    "tokamak_sector": tokamak_sector("A sector of a tokamak: plasma, wall and blanket, and a column."),
+    "tokamak_sector_gap": tokamak_sector("The same, the blanket begun 1e-4 too far out.", 100),
 }
 
 

@@ -80,6 +80,10 @@ const Case cases[] = {
     {"touching_balls", {}},
     {"overlapping_balls", {{Overlap, {1, 2}, "universe 0"}}},
     {"unused", {}},
+    {"torus_on_plate", {}},
+    {"torus_in_plate", {{Overlap, {1, 2}, "universe 0"}}},
+    {"tokamak_sector", {}},
+    {"tokamak_sector_gap", {{Gap, {}, "universe 0"}}},
 };
 
 std::filesystem::path folder() {

@@ -118,6 +118,20 @@ const Case cases[] = {
     {"sphere_shells_overlap", {"2.5", "0", "0"}, InOverlap, {3, 4}},
     {"room_with_window_overlap", {"265", "50.5", "0"}, InOverlap, {2, 3}},
     {"unused", {"0", "0", "0"}, InCell, {1}},
+    // 5 = |(3, 4)| from the axis: on the circle where the torus touches the plate.
+    {"torus_on_plate", {"3", "4", "0"}, OnBoundary, {1, 2, 3}},
+    {"torus_on_plate", {"3", "4", "0.000001"}, InCell, {1}},
+    {"torus_on_plate", {"0", "0", "1"}, InCell, {3}},
+    {"torus_in_plate", {"3", "4", "-0.0000005"}, InOverlap, {1, 2}},
+    // Between y = 0 and 3 x = 4 y. At z = 0 the first torus ends at 8 from the axis, the second at
+    // 8.3; (8.16, 0.88) is 8.207... away, (6.4, 4.8) just 8.
+    {"tokamak_sector", {"5.9", "1", "0"}, InCell, {1}},
+    {"tokamak_sector", {"8.16", "0.88", "0"}, InCell, {2}},
+    {"tokamak_sector", {"0.8", "0.1", "0"}, InCell, {4}},
+    {"tokamak_sector", {"5.9", "1", "5"}, InCell, {5}},
+    {"tokamak_sector", {"6.4", "4.8", "0"}, OnBoundary, {1, 2}},
+    // 8.30005 away; the blanket begins at 8.3001.
+    {"tokamak_sector_gap", {"7.968048", "2.324014", "0"}, InGap, {}},
 };
 
 std::filesystem::path folder() {
@@ -183,7 +197,8 @@ TEST(OpenMcModels, CleanOnesHaveNoGapAndNoOverlapAtRandomPoints) {
                          {"clipped_overlap", {18, 18, 9}},
                          {"hidden_gap", {110, 110, 110}},
                          {"touching_balls", {28, 28, 28}},
-                         {"cone_on_slope", {25, 25, 15}}};
+                         {"cone_on_slope", {25, 25, 15}},
+                         {"torus_on_plate", {99, 99, 99}}};
   std::mt19937 random(20261122);
   for (const auto& [name, reach] : clean) {
     const Model model = read(name);
