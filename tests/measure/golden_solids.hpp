@@ -9,15 +9,18 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "exactcsg/measure/area.hpp"
 #include "measure/curved_solids.hpp"
+#include "measure/curved_tori.hpp"
 
 namespace exactcsg::measure::test {
 
-inline nlohmann::json golden_solids() {
+// `kind`: "solids" of planes and quadrics (curved_solids.hpp), or "tori" (curved_tori.hpp).
+inline nlohmann::json golden(const std::string& kind) {
   std::ifstream file(std::string(EXACTCSG_SOURCE_DIR) + "/data/curved/golden.json");
-  return nlohmann::json::parse(file)["solids"];
+  return nlohmann::json::parse(file)[kind];
 }
 
 // A decimal of 20 digits: the number meant is within a unit of the last.
@@ -26,6 +29,16 @@ inline bool has_golden_value(const CertifiedMeasure& measure, const std::string&
   const Rational slack = value * Rational(1, 1'000'000'000) * Rational(1, 1'000'000'000);
   return measure.stop == StopReason::Width && measure.value.lower <= value + slack &&
          measure.value.upper >= value - slack;
+}
+
+template <class Known>
+void expect_golden_volumes(const std::vector<Known>& all, const std::string& kind, double width) {
+  const nlohmann::json entries = golden(kind);
+  for (const Known& known : all) {
+    EXPECT_TRUE(has_golden_value(volume(known.set, known.box, to_width(width)),
+                                 entries.at(known.name).at("volume")))
+        << known.name << " at " << width;
+  }
 }
 
 }  // namespace exactcsg::measure::test
