@@ -82,9 +82,13 @@ Command add_check(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "check",
-      "Do the cells of an OpenMC geometry overlap, or leave gaps? Exit 0: proved that they do\n"
+      "Do the cells of an OpenMC or MCNP geometry overlap, or leave gaps? Exit 0: proved that they "
+      "do\n"
       "not; 1: a defect, with a point of it, or undecided in more than the tolerance.");
-  command->add_option("MODEL", arguments->model, "geometry.xml or model.xml")->required();
+  command
+      ->add_option("MODEL", arguments->model,
+                   "geometry.xml, model.xml, or an MCNP input file (.mcnp, .inp, .i)")
+      ->required();
   command
       ->add_option(
           "--box", arguments->box,
@@ -104,7 +108,10 @@ Command add_check(CLI::App& app) {
   command->add_option("--report", arguments->reports, "also write .json, .xml (JUnit), .html, .txt")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  return {command, [arguments](Context& context) { return check_one(context, *arguments); }, 0};
+  Command checking{command,
+                   [arguments](Context& context) { return check_one(context, *arguments); }, 0};
+  checking.reads_meshes = false;
+  return checking;
 }
 
 }  // namespace exactcsg::cli

@@ -137,10 +137,10 @@ Answer classify_points(Context& context, const Arguments& arguments) {
 
 Command add_classify(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("classify",
-                         "Is each point in, on or out of the solid? One word a line.\n"
-                         "Of an OpenMC geometry: in which cell, and through which universes?");
+  CLI::App* command = app.add_subcommand(
+      "classify",
+      "Is each point in, on or out of the solid? One word a line.\n"
+      "Of an OpenMC or MCNP geometry: in which cell, and through which universes?");
   command->add_option("MODEL", arguments->model, "the model")->required();
   command
       ->add_option("--points", arguments->points,

@@ -28,6 +28,7 @@ struct CommonOptions {
   double time_limit_seconds = 0;  // 0: none
   std::size_t memory_limit = 0;   // bytes, 0: none
   bool quiet = false;
+  std::optional<FillRule> fill;  // of meshes that meet themselves; nullopt: they are refused
 };
 
 // What a command's work is given. The work runs on a thread of its own; warnings may come from it
@@ -69,6 +70,7 @@ struct Command {
   double default_time_limit_seconds = 55;
   // How many models the arguments name, if each has that time.
   std::function<std::size_t()> models = [] { return std::size_t{1}; };
+  bool reads_meshes = true;  // takes --fill
 };
 
 Command add_verify(CLI::App& app);

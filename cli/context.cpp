@@ -61,6 +61,7 @@ void pass_on(Context& context, const std::vector<io::Warning>& warnings) {
 io::Model read(Context& context, const std::filesystem::path& file) {
   io::ReadOptions options;
   options.progress = &context.progress();
+  options.fill = context.common().fill;
   context.progress().begin("read", 0);
   io::Model model = io::read_model(file, options);
   if (facets_of(model.solid) > few_facets) use_huge_pages();

@@ -31,6 +31,7 @@ constexpr std::size_t default_memory_limit = std::size_t{4} << 30U;
 struct ParsedCommon {
   CommonOptions options;
   std::optional<double> time_limit;
+  std::string fill;
 };
 
 // CLI11's own validator copies its table of units into every option, at every start: this one makes
@@ -41,6 +42,33 @@ CLI::Validator as_size() {
     return parse_size(text);
   };
   return {parse, "SIZE [b, kb(=1024b), ...]"};
+}
+
+// As above, by hand: CLI11's transformers make their tables at every start.
+CLI::Validator as_fill_rule() {
+  const auto check = [](std::string& text) -> std::string {
+    for (const FillRule rule : {FillRule::NonZero, FillRule::Positive, FillRule::EvenOdd}) {
+      if (text == name_of(rule)) return {};
+    }
+    return fmt::format("'{}' is no rule: nonzero, positive, even-odd", text);
+  };
+  return {check, "nonzero|positive|even-odd"};
+}
+
+std::optional<FillRule> fill_rule_of(std::string_view name) {
+  for (const FillRule rule : {FillRule::NonZero, FillRule::Positive, FillRule::EvenOdd}) {
+    if (name == name_of(rule)) return rule;
+  }
+  return std::nullopt;
+}
+
+void add_fill_option(CLI::App& arguments, std::string& fill) {
+  arguments
+      .add_option("--fill", fill,
+                  "what is inside of a mesh that meets itself or is inside out, by its winding "
+                  "numbers (default: it is refused)")
+      ->type_name("RULE")
+      ->check(as_fill_rule());
 }
 
 void add_common_options(CLI::App& arguments, ParsedCommon& parsed, double default_time_limit) {
@@ -84,6 +112,7 @@ int run(int argc, char** argv) {
   std::vector<ParsedCommon> common(commands.size());
   for (std::size_t i = 0; i < commands.size(); ++i) {
     add_common_options(*commands[i].arguments, common[i], commands[i].default_time_limit_seconds);
+    if (commands[i].reads_meshes) add_fill_option(*commands[i].arguments, common[i].fill);
   }
 
   try {
@@ -97,6 +126,7 @@ int run(int argc, char** argv) {
     CommonOptions options = common[i].options;
     options.time_limit_seconds = common[i].time_limit.value_or(
         commands[i].default_time_limit_seconds * static_cast<double>(commands[i].models()));
+    options.fill = fill_rule_of(common[i].fill);
     limit_memory(options.memory_limit);
     Context context(options);
     return supervise(commands[i], context);

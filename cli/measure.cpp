@@ -202,7 +202,7 @@ Command add_measure(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("measure",
                                          "Volume, area, centre of mass, bounding box, counts, "
-                                         "genus and digest. Of an OpenMC geometry: "
+                                         "genus and digest. Of an OpenMC or MCNP geometry: "
                                          "proved bounds of the volumes of its cells and materials; "
                                          "exit 1 if a limit was reached before "
                                          "they were as narrow as asked for.");

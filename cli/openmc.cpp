@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "exactcsg/io/openmc/cell_volumes.hpp"
 #include "exactcsg/io/openmc/point_location.hpp"
 
 namespace exactcsg::cli {
@@ -44,15 +45,6 @@ std::string line_of(const Model& model, const Location& location) {
 }
 
 }  // namespace
-
-std::string text_of_materials(const std::vector<std::optional<Id>>& materials) {
-  std::string text;
-  for (const std::optional<Id>& material : materials) {
-    if (!text.empty()) text += ", ";
-    text += material ? std::to_string(*material) : std::string("void");
-  }
-  return text;
-}
 
 Model read_geometry(Context& context, const std::filesystem::path& file) {
   context.progress().begin("read", 0);

@@ -16,7 +16,6 @@ namespace exactcsg::cli {
 io::openmc::Model read_geometry(Context& context, const std::filesystem::path& file);
 
 // "1", or "1, 2, void".
-std::string text_of_materials(const std::vector<std::optional<io::openmc::Id>>& materials);
 
 // A line for each point: In, On, Gap or Overlap, the cells, and the path through universes.
 Answer locate_points(Context& context, const std::string& model, const std::vector<Point3>& points);

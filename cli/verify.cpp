@@ -52,12 +52,14 @@ void check(const Arguments& arguments) {
 }
 
 verify::Report report_on_geometry(Context& context, const Arguments& arguments) {
-  if (!arguments.against.empty() || !arguments.golden.empty()) {
-    throw Error(ErrorId::Usage, {"--against or --golden with an OpenMC geometry", "neither"});
+  if (!arguments.against.empty()) {
+    throw Error(ErrorId::Usage, {"--against with an OpenMC geometry", "a planar model"});
   }
   verify::VerifyGeometryOptions options;
   options.seed = arguments.seed;
   options.nef_seconds = arguments.budget;
+  if (!arguments.golden.empty()) options.golden = arguments.golden;
+  options.golden_name = arguments.golden_name;
   options.disabled = arguments.without;
   options.progress = &context.progress();
   verify::Report report = verify::verify_geometry(read_geometry(context, arguments.model), options);
@@ -104,10 +106,10 @@ Answer verify_one(Context& context, const Arguments& arguments) {
 
 Command add_verify(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "verify",
-      "Hold the exact evaluation of a model, or the proved volumes of an OpenMC geometry, against "
-      "independent oracles.");
+  CLI::App* command = app.add_subcommand("verify",
+                                         "Hold the exact evaluation of a model, or the proved "
+                                         "volumes of an OpenMC or MCNP geometry, against "
+                                         "independent oracles.");
   command->add_option("MODEL", arguments->model, "the model")->required();
   command
       ->add_option(

@@ -235,8 +235,8 @@ void solve_tree(const std::string& name, std::size_t size, Json& result) {
 
 // Every intermediate result is measured, as ours are.
 template <class Peer>
-void solve_sequence(std::size_t side, Json& result) {
-  const CubeSequence sequence = cube_sequence(side);
+void solve_sequence(const std::string& name, std::size_t side, Json& result) {
+  const CubeSequence sequence = cube_sequence(name, side);
   const std::vector<GridFigures> expected = expected_figures(sequence, side);
   PrimitiveMaker primitive_of;
   const Stopwatch clock;
@@ -271,8 +271,8 @@ template <class Peer>
 Json run(const std::string& name, std::size_t size) {
   Json result;
   try {
-    if (name == "cube_sequence") {
-      solve_sequence<Peer>(size, result);
+    if (is_cube_sequence(name)) {
+      solve_sequence<Peer>(name, size, result);
     } else {
       solve_tree<Peer>(name, size, result);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One workload of the comparison of boundary evaluators in a process of its own:
 //   boundary_evaluate solve NAME SIZE [THREADS]   a line of JSON: times, memory, figures, checks
+//   boundary_evaluate change NAME SIZE [THREADS]  the same after one primitive of it was moved
 //   boundary_evaluate csg NAME SIZE               the model for OpenSCAD
 //   boundary_evaluate leaves NAME SIZE FILE       the model for bench/boundary/manifold.mjs
 // The clock runs from the solid in memory to the canonical boundary with volume, area and digest.
@@ -18,9 +19,9 @@
 #include "bench/boundary/process_figures.hpp"
 #include "bench/boundary/workloads.hpp"
 #include "cli/allocator.hpp"
-#include "exactcsg/io/mesh/solid_of_boundary.hpp"
 #include "exactcsg/solid/evaluate.hpp"
 #include "exactcsg/solid/figures.hpp"
+#include "exactcsg/solid/incremental_evaluation.hpp"
 #include "exactcsg/solid/scaled_vertices.hpp"
 
 namespace exactcsg::bench {
@@ -135,53 +136,132 @@ Json solve_tree(const std::string& name, std::size_t size, unsigned threads) {
   return result;
 }
 
-// Every intermediate result is evaluated, measured and made a leaf again.
-Json solve_sequence(std::size_t side, unsigned threads) {
-  const CubeSequence sequence = cube_sequence(side);
-  const std::vector<GridFigures> expected = expected_figures(sequence, side);
-  std::vector<Solid> cubes;
+// The cubes of a sequence that are there after so many operations, as one union.
+Solid union_after(const CubeSequence& sequence, const std::vector<Primitive>& cubes,
+                  std::size_t operations) {
+  const std::size_t united = sequence.united.size();
+  std::map<std::array<int, 3>, Solid> present;
+  for (std::size_t i = 0; i < std::min(operations, united); ++i) {
+    present.emplace(sequence.united[i], Solid::primitive(cubes[i]));
+  }
+  for (std::size_t i = united; i < operations; ++i) present.erase(sequence.subtracted[i - united]);
+  std::vector<Solid> operands;
+  for (const auto& [place, cube] : present) operands.push_back(cube);
+  if (operands.empty()) return Solid::empty();
+  return Solid::compose(csg::BooleanOperator::Union, std::move(operands));
+}
+
+// The operands in the order of the operations; a cube is one primitive both times.
+std::vector<Primitive> operands_of(const CubeSequence& sequence) {
   PrimitiveMaker primitive_of;
+  std::map<std::array<int, 3>, Primitive> known;
+  std::vector<Primitive> cubes;
   for (const auto* places : {&sequence.united, &sequence.subtracted}) {
     for (const auto& place : *places) {
-      cubes.push_back(Solid::primitive(primitive_of(cube_at(place).primitive())));
+      auto found = known.find(place);
+      if (found == known.end()) {
+        found = known.emplace(place, primitive_of(cube_at(place).primitive())).first;
+      }
+      cubes.push_back(found->second);
     }
   }
+  return cubes;
+}
+
+// Every intermediate result is evaluated and measured; some are compared with full evaluations of
+// the cubes that are there, after the clock was stopped.
+Json solve_sequence(const std::string& name, std::size_t side, unsigned threads) {
+  const CubeSequence sequence = cube_sequence(name, side);
+  const std::vector<GridFigures> expected = expected_figures(sequence, side);
+  const std::vector<Primitive> cubes = operands_of(sequence);
   EvaluateOptions options;
   options.threads = threads;
   Json result;
   Verdict verdict;
   TierStatistics statistics;
-  double leaf_seconds = 0;
+  std::vector<std::string> digests;
+  double apply_seconds = 0;
+  double merge_seconds = 0;
+  bool is_empty = false;
   const Stopwatch clock;
-  Solid solid;
+  IncrementalEvaluation design(Solid::empty(), options);
+  design.announce(std::span(cubes).first(sequence.united.size()));
   for (std::size_t i = 0; i < cubes.size(); ++i) {
-    const bool unites = i < sequence.united.size();
-    const Boundary boundary =
-        evaluate(unites ? csg::unite(solid, cubes[i]) : csg::subtract(solid, cubes[i]), options);
+    const Stopwatch step;
+    if (i < sequence.united.size()) {
+      design.unite(cubes[i]);
+    } else {
+      design.subtract(cubes[i]);
+    }
+    const double applied = step.seconds();
+    const Boundary boundary = design.boundary();
+    apply_seconds += applied;
+    merge_seconds += step.seconds() - applied;
     const MeasuredFigures figures = measure(boundary, 17, longest_fraction);
-    result["digest"] = digest(boundary);
+    digests.push_back(digest(boundary));
     statistics += boundary.statistics.tiers;
+    is_empty = boundary.empty();
     if (figures.volume_decimal != std::to_string(expected[i].volume) ||
         figures.area_decimal != std::to_string(expected[i].area)) {
       verdict.wrong.push_back(fmt::format("after operation {}", i));
       break;
     }
-    const Stopwatch leaf;
-    solid = io::solid_of_boundary(boundary);
-    leaf_seconds += leaf.seconds();
   }
-  result["seconds"] = clock.seconds();
-  result["phases"] = {{"evaluate, measure, digest", clock.seconds() - leaf_seconds},
-                      {"leaf again", leaf_seconds}};
+  const double seconds = clock.seconds();
+  result["seconds"] = seconds;
+  result["phases"] = {{"apply", apply_seconds},
+                      {"merge", merge_seconds},
+                      {"measure, digest", seconds - apply_seconds - merge_seconds}};
   result["peak_kilobytes"] = peak_kilobytes();
   result["load"] = 0;
   result["volume"] = "0";
   result["area"] = "0";
-  verdict.check("empty at the end", solid.is_empty());
-  verdict.checked.push_back(fmt::format("volume and area {} times", cubes.size()));
+  result["digest"] = digests.back();
+  verdict.check("empty at the end", is_empty);
+  verdict.checked.push_back(fmt::format("volume and area {} times", digests.size()));
+  const std::size_t stride = std::max<std::size_t>(1, digests.size() / 20);
+  std::size_t compared = 0;
+  bool equal = true;
+  for (std::size_t i = stride - 1; i < digests.size(); i += stride) {
+    equal &= digests[i] == digest(evaluate(union_after(sequence, cubes, i + 1), options));
+    ++compared;
+  }
+  verdict.check(fmt::format("{} digests by full evaluation", compared), equal);
   result["tiers"] = tiers(statistics);
   result["checked"] = verdict.checked;
   result["wrong"] = verdict.wrong;
+  return result;
+}
+
+// A primitive in the middle of the tree is moved a little, thrice: what an evaluation that is kept
+// takes for that, and a full one.
+Json solve_change(const std::string& name, std::size_t size, unsigned threads) {
+  EvaluateOptions options;
+  options.threads = threads;
+  IncrementalEvaluation design(solid_of(make_workload(name, size).model), options);
+  design.boundary();
+  const Occurrence moved{design.occurrence_count() / 2};
+  Json result;
+  bool equal = true;
+  for (const long thousandths : {100, 37, -51}) {
+    const Rational by = Rational(thousandths) / 1000;
+    const Primitive primitive = apply(translation(by, by, 0), design.primitive(moved));
+    const Stopwatch clock;
+    const UpdateStatistics update = design.replace(moved, primitive);
+    const double changed = clock.seconds();
+    const Boundary boundary = design.boundary();
+    const double merged = clock.seconds();
+    const Boundary full = evaluate(design.solid(), options);
+    const double evaluated = clock.seconds();
+    equal &= digest(boundary) == digest(full);
+    result["changes"].push_back({{"change", changed},
+                                 {"merge", merged - changed},
+                                 {"full evaluation", evaluated - merged},
+                                 {"cells", update.cells},
+                                 {"renewed", update.renewed_cells},
+                                 {"all", update.everything}});
+  }
+  result["wrong"] = equal ? Json::array() : Json::array({"digest"});
   return result;
 }
 
@@ -260,9 +340,9 @@ void write_leaves(const std::string& name, std::size_t size, const std::string& 
                            {"operands", node.tree().children().size()}});
       });
   Json document{{"program", program}, {"leaves", writer.leaves()}};
-  if (name == "cube_sequence") {
+  if (is_cube_sequence(name)) {
     // After each operation, in the order of the program's primitives.
-    for (const GridFigures& figures : expected_figures(cube_sequence(size), size)) {
+    for (const GridFigures& figures : expected_figures(cube_sequence(name, size), size)) {
       document["expected"].push_back({figures.volume, figures.area});
     }
   }
@@ -270,7 +350,7 @@ void write_leaves(const std::string& name, std::size_t size, const std::string& 
 }
 
 int usage() {
-  fmt::print(stderr, "boundary_evaluate solve|csg|leaves NAME SIZE [THREADS|FILE]\n");
+  fmt::print(stderr, "boundary_evaluate solve|change|csg|leaves NAME SIZE [THREADS|FILE]\n");
   return 2;
 }
 
@@ -283,11 +363,16 @@ int run(const std::vector<std::string>& arguments) {
     std::cout << csg_of(make_workload(name, size).model);
   } else if (command == "leaves" && arguments.size() > 3) {
     write_leaves(name, size, arguments[3]);
-  } else if (command == "solve") {
+  } else if (command == "solve" || command == "change") {
     const auto threads =
         arguments.size() > 3 ? static_cast<unsigned>(std::stoul(arguments[3])) : 1U;
-    const Json result =
-        name == "cube_sequence" ? solve_sequence(size, threads) : solve_tree(name, size, threads);
+    if (command == "change") {
+      const Json changes = solve_change(name, size, threads);
+      std::cout << changes.dump() << std::endl;
+      return changes["wrong"].empty() ? 0 : 1;
+    }
+    const Json result = is_cube_sequence(name) ? solve_sequence(name, size, threads)
+                                               : solve_tree(name, size, threads);
     std::cout << result.dump() << std::endl;
     return result["wrong"].empty() ? 0 : 1;
   } else {

@@ -354,12 +354,18 @@ struct CubeSequence {
   std::vector<std::array<int, 3>> subtracted;
 };
 
-inline CubeSequence cube_sequence(std::size_t side) {
+// x fastest, then y: both times in the same order.
+inline CubeSequence cubes_in_grid_order(std::size_t side) {
+  std::vector<std::array<int, 3>> places;
+  const auto n = static_cast<int>(side);
+  for (int i = 0; i < n * n * n; ++i) places.push_back({i % n, i / n % n, i / n / n});
+  return {places, places};
+}
+
+inline CubeSequence shuffled_cubes(std::size_t side) {
   RandomNumbers random(6);
   const auto shuffled = [&] {
-    std::vector<std::array<int, 3>> places;
-    const auto n = static_cast<int>(side);
-    for (int i = 0; i < n * n * n; ++i) places.push_back({i % n, i / n % n, i / n / n});
+    std::vector<std::array<int, 3>> places = cubes_in_grid_order(side).united;
     for (std::size_t i = places.size(); i > 1; --i)
       std::swap(places[i - 1], places[random.below(i)]);
     return places;
@@ -370,19 +376,35 @@ inline CubeSequence cube_sequence(std::size_t side) {
   return sequence;
 }
 
+// THROWS std::invalid_argument
+inline CubeSequence cube_sequence(const std::string& name, std::size_t side) {
+  if (name == "cube_sequence") return cubes_in_grid_order(side);
+  if (name == "shuffled_cubes") return shuffled_cubes(side);
+  throw std::invalid_argument("no sequence \"" + name + "\"");
+}
+inline bool is_cube_sequence(const std::string& name) {
+  return name == "cube_sequence" || name == "shuffled_cubes";
+}
+
 inline Model cube_at(const std::array<int, 3>& place) {
   return box(1, 1, 1, translation(place[0], place[1], place[2]));
 }
 
 // All operations as one tree, to be worked off in order.
-inline Workload cubes_in_order(std::size_t side) {
-  const CubeSequence sequence = cube_sequence(side);
+inline Workload cubes_in_order(const CubeSequence& sequence) {
   std::vector<Model> operands;
   for (const auto& place : sequence.united) operands.push_back(cube_at(place));
   std::vector<Model> tools;
   for (const auto& place : sequence.subtracted) tools.push_back(cube_at(place));
   return {subtracted(united(std::move(operands)), std::move(tools)),
           {Rational(0), Rational(0), std::array<std::uint64_t, 3>{0, 0, 0}, 0}};
+}
+
+inline Workload cube_sequence(std::size_t side) {
+  return cubes_in_order(cubes_in_grid_order(side));
+}
+inline Workload cube_sequence_shuffled(std::size_t side) {
+  return cubes_in_order(shuffled_cubes(side));
 }
 
 // Volume and area after each of the operations, counted on the grid: cubes, and faces in sight.
@@ -426,13 +448,15 @@ struct NamedGenerator {
   Workload (*make)(std::size_t size);
 };
 
-inline constexpr std::array<NamedGenerator, 7> generators{{{"spheres", spheres},
-                                                           {"menger", menger},
-                                                           {"drilled_block", drilled_block},
-                                                           {"capsules", capsules_along_dome},
-                                                           {"meshes", meshes},
-                                                           {"turned_cubes", turned_cubes},
-                                                           {"cube_sequence", cubes_in_order}}};
+inline constexpr std::array<NamedGenerator, 8> generators{
+    {{"spheres", spheres},
+     {"menger", menger},
+     {"drilled_block", drilled_block},
+     {"capsules", capsules_along_dome},
+     {"meshes", meshes},
+     {"turned_cubes", turned_cubes},
+     {"cube_sequence", cube_sequence},
+     {"shuffled_cubes", cube_sequence_shuffled}}};
 
 // THROWS std::invalid_argument
 inline Workload make_workload(const std::string& name, std::size_t size) {

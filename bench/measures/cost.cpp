@@ -16,11 +16,13 @@
 #include "exactcsg/measure/area.hpp"
 #include "exactcsg/verify/monte_carlo.hpp"
 #include "measure/curved_solids.hpp"
+#include "measure/curved_tori.hpp"
 
 namespace exactcsg {
 namespace {
 
 using measure::test::KnownSolid;
+using measure::test::KnownTorus;
 using measure::test::to_width;
 
 template <class Work>
@@ -98,26 +100,35 @@ void print_plot(const std::vector<double>& widths, const std::vector<Row>& rows)
   fmt::print("```\n");
 }
 
+template <class Known>
+Row row_of_area(const Known& known, const std::vector<double>& widths) {
+  return row_of(known.name, widths,
+                [&](double width) { return measure::area(known.set, known.box, to_width(width)); });
+}
+
 void print_solids() {
   const std::vector<double> widths{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
-  const std::vector<double> area_widths{1e-1, 1e-2, 1e-3, 1e-4};
   std::vector<Row> volumes;
   std::vector<Row> areas;
   for (const KnownSolid& known : measure::test::known_solids()) {
     volumes.push_back(row_of(known.name, widths, [&](double width) {
       return measure::volume(known.set, known.box, to_width(width));
     }));
-    if (!known.area) continue;
-    areas.push_back(row_of(known.name, area_widths, [&](double width) {
-      return measure::area(known.set, known.box, to_width(width));
-    }));
+    if (known.area) areas.push_back(row_of_area(known, widths));
+  }
+  const std::vector<double> torus_widths{1e-3, 1e-6, 1e-9};
+  std::vector<Row> torus_areas;
+  for (const KnownTorus& known : measure::test::known_tori()) {
+    if (known.area) torus_areas.push_back(row_of_area(known, torus_widths));
   }
   fmt::print("## Volumes\n\n");
   print_table(widths, volumes);
   print_plot(widths, volumes);
   fmt::print("\n## Areas\n\n");
-  print_table(area_widths, areas);
-  print_plot(area_widths, areas);
+  print_table(widths, areas);
+  print_plot(widths, areas);
+  fmt::print("\n");
+  print_table(torus_widths, torus_areas);
 }
 
 void print_comparison(const std::string& name) {

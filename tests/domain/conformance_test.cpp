@@ -72,7 +72,7 @@ TYPED_TEST(Conformance, MixedBoxesAreMixed) {
   Random random(4);
   int mixed = 0;
   if (!TypeParam::is_exact_for_boxes) return;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 80; ++i) {
     const auto sample = TypeParam::sample(random);
     const auto box = random.template box<TypeParam::dimension>();
     if (classify(sample.set, box) != csg::Membership::Unknown) continue;

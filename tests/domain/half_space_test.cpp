@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "domain/random_rationals.hpp"
 #include "exactcsg/domain/half_spaces.hpp"
 
 namespace exactcsg::domain {
@@ -133,6 +134,55 @@ TEST(Lines, LinesInTheSurfaceAreOn) {
   // Along the axis of one nappe: enters at the apex.
   const Section inner = section(make_cone(axis, 1), whole_line<3>({0, 0, 0}, {0, 0, 1}));
   EXPECT_EQ(inner.between, (std::vector{PointClass::Out, PointClass::In}));
+}
+
+// LAW quadric.5, and that the bounds are tight, against the range in rationals.
+TEST(Quadrics, RangeBoundsAreThoseOfTheRange) {
+  test::Random random(1);
+  for (int i = 0; i < 2000; ++i) {
+    Quadric<3>::Matrix square;
+    LinearForm<3> linear{random.coordinates<3>(), random.rational()};
+    for (std::size_t k = 0; k < 3; ++k) {
+      square[k][k] = random.one_in(4) ? Rational(0) : random.rational();
+    }
+    const Quadric<3> f(square, linear);
+    const Box<3> box = random.box<3>();
+    const Range exact = range(f, box);
+    const RangeBounds bounds = f.range_bounds(box);
+    EXPECT_LE(rational_of(bounds.least_lower), exact.minimum);
+    EXPECT_GE(rational_of(bounds.least_upper), exact.minimum);
+    EXPECT_LE(rational_of(bounds.greatest_lower), exact.maximum);
+    EXPECT_GE(rational_of(bounds.greatest_upper), exact.maximum);
+    double scale = 1;
+    for (const Rational& x : box.upper().coordinates()) scale += std::abs(x.get_d());
+    for (const Rational& x : box.lower().coordinates()) scale += std::abs(x.get_d());
+    EXPECT_LE(bounds.least_upper - bounds.least_lower, 1e-9 * scale * scale);
+    EXPECT_LE(bounds.greatest_upper - bounds.greatest_lower, 1e-9 * scale * scale);
+  }
+}
+
+// LAW quadric.6
+TEST(Quadrics, NowhereNegativeIsWhereTheLeastValueIsNot) {
+  test::Random random(2);
+  int count = 0;
+  for (int i = 0; i < 1000; ++i) {
+    Quadric<3>::Matrix square;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t l = k; l < 3; ++l) {
+        if (k == l || i % 2 == 0) square[k][l] = square[l][k] = random.rational();
+      }
+    }
+    const Box<3> box = random.box<3>();
+    const Quadric<3> f(square, {random.coordinates<3>(), random.rational()});
+    // Moved, so that the least value is 0 or next to it.
+    const Rational least = range(f, box).minimum;
+    for (const Rational& value : {Rational(0), random.tiny(), random.rational()}) {
+      const Quadric<3> moved = f + Quadric<3>(LinearForm<3>{{}, Rational(value - least)});
+      EXPECT_EQ(is_nowhere_negative(moved, box), value >= 0);
+      count += value >= 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(count, 1000);
 }
 
 TEST(HalfSpaces, DegenerateOnesAreRefused) {

@@ -50,13 +50,14 @@ void expect_box_tells_of_points(const Sample& sample, const Box<D>& box, Random&
   }
 }
 
-// Looks for the point of the box where `better` values are, ever nearer to the best one so far.
+// Looks for the point of the box where `better` values are, ever nearer to the best one so far,
+// from each corner in turn, until one is on the better side of 0.
 template <class Sample, std::size_t D, class Better>
 PointClass class_by_search(const Sample& sample, const Box<D>& box, Random& random,
                            Better&& better) {
   constexpr std::int64_t one = 1 << 30;
-  std::array<std::int64_t, D> best{};
-  const auto at = [&](const std::array<std::int64_t, D>& shares) {
+  using Shares = std::array<std::int64_t, D>;
+  const auto at = [&](const Shares& shares) {
     Coordinates<D> point;
     for (std::size_t i = 0; i < D; ++i) {
       Rational share(shares[i], one);
@@ -65,19 +66,24 @@ PointClass class_by_search(const Sample& sample, const Box<D>& box, Random& rand
     }
     return point;
   };
-  Rational value = sample.value(at(best));
-  for (std::int64_t reach = one; reach > 4; reach -= reach / 4) {
-    for (int i = 0; i < 12; ++i) {
-      std::array<std::int64_t, D> shares = best;
-      for (std::int64_t& share : shares) {
-        if (!random.one_in(3)) share += random.integer(-reach, reach);
-        share = std::clamp(share, std::int64_t{0}, one);
+  Shares best{};
+  for (std::size_t corner = 0; corner < (std::size_t{1} << D); ++corner) {
+    for (std::size_t i = 0; i < D; ++i) best[i] = (corner >> i & 1U) != 0 ? one : 0;
+    Rational value = sample.value(at(best));
+    for (std::int64_t reach = one; reach > 4 && !better(value, Rational(0)); reach -= reach / 4) {
+      for (int i = 0; i < 12; ++i) {
+        Shares shares = best;
+        for (std::int64_t& share : shares) {
+          if (!random.one_in(3)) share += random.integer(-reach, reach);
+          share = std::clamp(share, std::int64_t{0}, one);
+        }
+        const Rational found = sample.value(at(shares));
+        if (!better(found, value)) continue;
+        value = found;
+        best = shares;
       }
-      const Rational found = sample.value(at(shares));
-      if (!better(found, value)) continue;
-      value = found;
-      best = shares;
     }
+    if (better(value, Rational(0))) break;
   }
   return sample.reference(at(best));
 }

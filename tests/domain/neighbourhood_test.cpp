@@ -187,9 +187,14 @@ TEST(CoincidentBoundaries, WhatIsNotDecidedIsRefused) {
   EXPECT_EQ(classify(subtract(two, unite(cone, down)), origin), PointClass::Out);
   EXPECT_EQ(classify(subtract(two, cone), origin), PointClass::On);
   EXPECT_EQ(classify(unite(cone, plane), origin), PointClass::On);  // some directions show it
+  EXPECT_EQ(classify(intersect(cone, plane), origin), PointClass::Out);
+  // A ball and a paraboloid round it that has the ball's curvature in the origin.
+  const Solid3 ball = make_bounded_ball({0, 0, 1}, 1);
+  const Solid3 bowl = Solid3::primitive(
+      HalfSpace<3>(Quadric<3>({{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}}, {{0, 0, -2}, 0})));
   try {
-    classify(intersect(cone, plane), origin);
-    FAIL() << "an apex on a plane is not decided";
+    classify(subtract(ball, bowl), origin);
+    FAIL() << "surfaces that osculate are not decided";
   } catch (const Error& error) {
     EXPECT_EQ(error.id(), ErrorId::UndecidedNeighbourhood);
   }
@@ -277,6 +282,71 @@ TEST(CoincidentBoundaries, RandomSolidsAgreeWithSamplesOfASmallSphere) {
   }
   EXPECT_LT(refused, rounds / 10);
   EXPECT_GT(on, rounds / 4);
+}
+
+Solid3 plane_below(const Coordinates<3>& normal) {
+  return Solid3::primitive(make_plane(normal, 0));
+}
+
+// Balls of radii 1, 2 and 3 that touch in the origin, each within the next; and planes there.
+TEST(CoincidentBoundaries, SeveralSurfacesThatTouch) {
+  const Point<3> origin(0, 0, 0);
+  const auto ball = [](int radius) { return make_bounded_ball({0, 0, radius}, radius * radius); };
+  EXPECT_EQ(classify(subtract(intersect(ball(1), ball(2)), ball(3)), origin), PointClass::Out);
+  EXPECT_EQ(classify(subtract(subtract(ball(3), ball(2)), ball(1)), origin), PointClass::On);
+  const Solid3 plate = plane_below({0, 0, 1});
+  const Solid3 wall = plane_below({1, 0, 0});
+  EXPECT_EQ(classify(intersect(intersect(ball(1), plate), wall), origin), PointClass::Out);
+  EXPECT_EQ(classify(intersect(subtract(ball(2), ball(1)), wall), origin), PointClass::On);
+  EXPECT_EQ(classify(intersect(subtract(ball(1), ball(2)), wall), origin), PointClass::Out);
+  // Two pairs that touch, in planes that cross: a cell between both, e^2 wide, where both gaps
+  // meet.
+  const auto beside = [](int radius) { return make_bounded_ball({radius, 0, 0}, radius * radius); };
+  const Solid3 gap = subtract(ball(2), ball(1));
+  EXPECT_EQ(classify(intersect(gap, subtract(beside(2), beside(1))), origin), PointClass::On);
+  EXPECT_EQ(classify(intersect(gap, subtract(beside(1), beside(2))), origin), PointClass::Out);
+}
+
+// A pair of planes as one quadric, and one of the two: away from the other they are one surface.
+TEST(CoincidentBoundaries, AQuadricThatIsAPairOfPlanes) {
+  const Point<3> on(0, 1, 2);
+  const Solid3 pair =
+      Solid3::primitive(HalfSpace<3>(product(LinearForm<3>{{1, 0, 0}, 0}, {{0, 1, 0}, 0})));
+  const Solid3 left = plane_below({1, 0, 0});
+  EXPECT_EQ(classify(subtract(pair, left), on), PointClass::Out);  // x y <= 0, y > 0
+  EXPECT_EQ(classify(unite(pair, csg::complement(left)), on), PointClass::In);
+  EXPECT_EQ(classify(intersect(pair, left), on), PointClass::On);
+  EXPECT_EQ(classify(subtract(intersect(pair, left), make_bounded_ball({3, 1, 2}, 9)), on),
+            PointClass::On);
+}
+
+// What is turned about one axis shares circles: the point (3, 4, 0) of the radius 5.
+TEST(CoincidentBoundaries, SurfacesOfRevolutionThatShareACircle) {
+  const Point<3> on(3, 4, 0);
+  const Axis axis{{0, 0, 0}, {0, 0, 1}};
+  const Solid3 pipe = Solid3::primitive(make_cylinder(axis, 25));
+  const Solid3 ball = make_bounded_ball({0, 0, 0}, 25);
+  const Solid3 under = plane_below({0, 0, 1});
+  const Solid3 over = csg::complement(under);
+  // They touch along it.
+  EXPECT_EQ(classify(subtract(ball, pipe), on), PointClass::Out);
+  EXPECT_EQ(classify(subtract(pipe, ball), on), PointClass::On);
+  // A vessel: a cylinder with a hemisphere below, and all that is round it.
+  const Solid3 vessel = unite(intersect(pipe, over), intersect(ball, under));
+  const Solid3 round = unite(subtract(over, pipe), subtract(under, ball));
+  EXPECT_EQ(classify(vessel, on), PointClass::On);
+  EXPECT_EQ(classify(unite(vessel, round), on), PointClass::In);
+  EXPECT_EQ(classify(intersect(vessel, round), on), PointClass::Out);
+  // A cone and a ball through it, which cross.
+  const Solid3 roof = Solid3::primitive(make_cone({{0, 0, 5}, {0, 0, -1}}, 1));
+  EXPECT_EQ(classify(subtract(intersect(roof, over), pipe), on), PointClass::Out);
+  EXPECT_EQ(classify(subtract(intersect(roof, under), pipe), on), PointClass::On);
+  const Solid3 low = make_bounded_ball({0, 0, -12}, 169);
+  EXPECT_EQ(classify(subtract(intersect(low, over), roof), on), PointClass::Out);
+  EXPECT_EQ(classify(intersect(intersect(low, over), intersect(roof, pipe)), on), PointClass::On);
+  const Solid3 high = make_bounded_ball({0, 0, 12}, 169);
+  EXPECT_EQ(classify(subtract(intersect(low, high), under), on), PointClass::On);
+  EXPECT_EQ(classify(subtract(intersect(intersect(low, high), pipe), ball), on), PointClass::Out);
 }
 
 // An edge along the common side of two squares, then along one of them alone.

@@ -444,12 +444,102 @@ inline std::array<Coordinates<3>, 3> rational_frame(int w, int x, int y, int z) 
             Rational((w * w - x * x - y * y + z * z) / n)}}};
 }
 
+// General quadrics: in a rational frame at a point, the sum of signed squares of coordinates in
+// units of lengths, plus a multiple of the third coordinate, is at most a constant.
+struct Signature {
+  std::array<int, 3> squares;
+  int along_third;
+  int constant;
+};
+
+inline Sample<HalfSpace<3>, 3> sample_of_quadric(Random& random, const Signature& signature) {
+  const auto number = [&] { return static_cast<int>(random.integer(1, 3)); };
+  const auto frame = rational_frame(number(), number(), number(), number());
+  const Coordinates<3> centre = random.coordinates<3>();
+  Coordinates<3> lengths;
+  for (Rational& length : lengths) length = random.positive();
+  const auto value = [=](const Coordinates<3>& x) {
+    const Coordinates<3> v = difference(x, centre);
+    Rational sum = -signature.constant;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Rational share = scalar_product(v, frame[i]) / lengths[i];
+      sum += signature.squares[i] * share * share;
+    }
+    return Rational(sum + signature.along_third * scalar_product(v, frame[2]));
+  };
+  // The value is c + b'v + v'Av.
+  Quadric<3>::Matrix square;
+  Coordinates<3> slope = moved<3>({}, Rational(signature.along_third), frame[2]);
+  Rational constant = -signature.constant - scalar_product(slope, centre);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rational factor = signature.squares[i] / (lengths[i] * lengths[i]);
+    const Rational shift = scalar_product(centre, frame[i]);
+    constant += factor * shift * shift;
+    slope = moved(slope, Rational(-2 * factor * shift), frame[i]);
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < 3; ++k) square[j][k] += factor * frame[i][j] * frame[i][k];
+    }
+  }
+  // Where a square alone makes up for the constant; a paraboloid passes through its own point.
+  Coordinates<3> on_boundary = centre;
+  for (std::size_t i = 0; i < 3 && signature.constant != 0; ++i) {
+    if (signature.squares[i] != signature.constant) continue;
+    on_boundary = moved(centre, lengths[i], frame[i]);
+    break;
+  }
+  return {HalfSpace<3>(Quadric<3>(square, {slope, constant})), value, on_boundary};
+}
+
+struct TiltedEllipsoidRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "tilted_ellipsoid";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) {
+    return sample_of_quadric(random, {{1, 1, 1}, 0, 1});
+  }
+};
+struct OneSheetRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "hyperboloid_of_one_sheet";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) {
+    return sample_of_quadric(random, {{1, 1, -1}, 0, 1});
+  }
+};
+struct TwoSheetsRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "hyperboloid_of_two_sheets";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) {
+    return sample_of_quadric(random, {{1, 1, -1}, 0, -1});
+  }
+};
+struct EllipticParaboloidRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "elliptic_paraboloid";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) {
+    return sample_of_quadric(random, {{1, 1, 0}, -1, 0});
+  }
+};
+struct HyperbolicParaboloidRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "hyperbolic_paraboloid";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) {
+    return sample_of_quadric(random, {{1, -1, 0}, -1, 0});
+  }
+};
+struct ParabolicCylinderRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "parabolic_cylinder";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) {
+    return sample_of_quadric(random, {{1, 0, 0}, -1, 0});
+  }
+};
+struct HyperbolicCylinderRow : HalfSpaceRow<3> {
+  static constexpr const char* name = "hyperbolic_cylinder";
+  static Sample<HalfSpace<3>, 3> sample(Random& random) {
+    return sample_of_quadric(random, {{1, -1, 0}, 0, 1});
+  }
+};
+
 inline TorusSample sample_of_torus(Random& random, const std::array<Coordinates<3>, 3>& frame) {
   TorusSample sample{{make_torus({{0, 0, 0}, {0, 0, 1}}, 3, 1, 1), {}, {}}, {}, frame, 0, 0, 0};
   sample.centre = random.coordinates<3>();
   sample.major = random.positive();
   sample.along = random.positive();
   sample.across = random.one_in(4) ? sample.major : random.positive();  // a horn torus
+  if (random.one_in(3)) sample.along = sample.across;                   // a circular one
   Coordinates<3> direction{};
   direction = moved(direction, random.positive(), frame[2]);
   sample.set =
@@ -516,22 +606,29 @@ struct SurfaceRow : TorusRow {
 };
 
 // One row for each domain.
-using Rows = std::tuple<LineRow,             //
-                        DiscRow,             //
-                        PlaneRow,            //
-                        SphereRow,           //
-                        CylinderRow,         //
-                        DoubleConeRow,       //
-                        ConeRow,             //
-                        EllipsoidRow,        //
-                        BlockRow,            //
-                        BoundedBallRow,      //
-                        BoundedCylinderRow,  //
-                        BoundedConeRow,      //
-                        WedgeRow,            //
-                        TorusRow,            //
-                        TiltedTorusRow,      //
-                        SurfaceRow,          //
+using Rows = std::tuple<LineRow,                  //
+                        DiscRow,                  //
+                        PlaneRow,                 //
+                        SphereRow,                //
+                        CylinderRow,              //
+                        DoubleConeRow,            //
+                        ConeRow,                  //
+                        EllipsoidRow,             //
+                        TiltedEllipsoidRow,       //
+                        OneSheetRow,              //
+                        TwoSheetsRow,             //
+                        EllipticParaboloidRow,    //
+                        HyperbolicParaboloidRow,  //
+                        ParabolicCylinderRow,     //
+                        HyperbolicCylinderRow,    //
+                        BlockRow,                 //
+                        BoundedBallRow,           //
+                        BoundedCylinderRow,       //
+                        BoundedConeRow,           //
+                        WedgeRow,                 //
+                        TorusRow,                 //
+                        TiltedTorusRow,           //
+                        SurfaceRow,               //
                         StripTreeRow>;
 
 }  // namespace exactcsg::domain::test

@@ -63,7 +63,7 @@ TEST(TorusNeighbourhoods, PlanesThatTouchInAPoint) {
   }
 }
 
-TEST(TorusNeighbourhoods, TipsAreDecidedAloneAndRefusedOnOthers) {
+TEST(TorusNeighbourhoods, TipsAreDecidedAloneAndOnWhatCrossesThem) {
   const Set spindle = set(make_torus({{0, 0, 3}, {0, 0, 1}}, 4, 5, 5));  // tips at 0 and 6
   const Set again = set(make_torus({{0, 0, 3}, {0, 0, 2}}, 4, 5, 5));
   const Point<3> tip(0, 0, 0);
@@ -71,7 +71,11 @@ TEST(TorusNeighbourhoods, TipsAreDecidedAloneAndRefusedOnOthers) {
   EXPECT_EQ(classify(unite(spindle, csg::complement(again)), tip), PointClass::In);
   // Outside the tip is the cone that points down.
   EXPECT_EQ(classify(intersect(spindle, below({0, 0, 1}, 0)), tip), PointClass::On);
-  EXPECT_TRUE(is_refused(unite(spindle, below({0, 0, 1}, 0)), tip));
+  EXPECT_EQ(classify(unite(spindle, below({0, 0, 1}, 0)), tip), PointClass::In);
+  EXPECT_EQ(classify(unite(spindle, below({1, 0, 0}, 0)), tip), PointClass::On);
+  EXPECT_EQ(classify(intersect(spindle, set(make_sphere({0, 0, -1}, 1))), tip), PointClass::On);
+  // Near the tip it is the outside of 16 rho^2 <= 9 z^2, z < 0, which this cone covers.
+  EXPECT_TRUE(is_refused(unite(spindle, set(make_cone({tip, {0, 0, -1}}, 1))), tip));
   const Set horn = set(make_torus(z_axis, 1, 1, 1));
   EXPECT_TRUE(is_refused(unite(horn, below({0, 0, 1}, 0)), tip));
 }

@@ -61,21 +61,20 @@ TEST_P(BoundaryWorkload, IsTheSameSolidAsALeafAgain) {
   EXPECT_EQ(digest(evaluate(io::solid_of_boundary(boundary))), digest(boundary));
 }
 
-INSTANTIATE_TEST_SUITE_P(Small, BoundaryWorkload,
-                         testing::Values(Case{"spheres", 5}, Case{"menger", 2},
-                                         Case{"drilled_block", 3}, Case{"capsules", 10},
-                                         Case{"meshes", 8}, Case{"turned_cubes", 1},
-                                         Case{"turned_cubes", 15}, Case{"cube_sequence", 2}),
-                         [](const auto& tested) {
-                           return std::string(tested.param.name) + "_" +
-                                  std::to_string(tested.param.size);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Small, BoundaryWorkload,
+    testing::Values(Case{"spheres", 5}, Case{"menger", 2}, Case{"drilled_block", 3},
+                    Case{"capsules", 10}, Case{"meshes", 8}, Case{"turned_cubes", 1},
+                    Case{"turned_cubes", 15}, Case{"cube_sequence", 2}, Case{"shuffled_cubes", 2}),
+    [](const auto& tested) {
+      return std::string(tested.param.name) + "_" + std::to_string(tested.param.size);
+    });
 
 // Every intermediate result is a leaf of the next operation. Volume and area are counted on the
 // grid; in a random order the cubes touch at edges and vertices alone.
 TEST(CubeSequence, EveryIntermediateResultIsRight) {
   constexpr std::size_t side = 3;
-  const CubeSequence sequence = cube_sequence(side);
+  const CubeSequence sequence = shuffled_cubes(side);
   const std::vector<GridFigures> expected = expected_figures(sequence, side);
   PrimitiveMaker primitive_of;
   Solid solid;

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <map>
+
 #include "measure/curved_solids.hpp"
 #include "measure/random_solids.hpp"
 
@@ -26,27 +28,58 @@ Rational exact_area(const Solid3& set, const Box<3>& box) {
   return measure.value.lower;
 }
 
+// The width falls at least as the inverse cube of the cells.
 TEST(CertifiedArea, ClosedFormsLieInTheBoundsAtEveryWidth) {
   for (const KnownSolid& known : known_solids()) {
     if (!known.area) continue;
-    for (const double width : {1e-1, 1e-3}) {
+    std::map<double, double> cells;
+    for (const double width : {1e-1, 1e-3, 1e-6}) {
       const CertifiedMeasure measure = area(known.set, known.box, to_width(width));
       EXPECT_TRUE(encloses(measure.value, *known.area)) << known.name << " at " << width;
       EXPECT_EQ(measure.stop, StopReason::Width) << known.name << " at " << width;
       EXPECT_LE(Rational(measure.value.upper - measure.value.lower),
                 Rational(rational_of(width) * measure.value.lower));
+      cells[width] = static_cast<double>(measure.cells);
     }
+    EXPECT_LE(cells[1e-6] / cells[1e-3], std::cbrt(1e3)) << known.name;
   }
 }
 
-TEST(CertifiedArea, TheWidthFallsAtLeastAsTheInverseSquareOfTheCells) {
-  for (const KnownSolid& known : known_solids()) {
-    if (!known.area) continue;
-    const auto cells = [&](double width) {
-      return static_cast<double>(area(known.set, known.box, to_width(width)).cells);
-    };
-    EXPECT_LE(cells(1e-3) / cells(1e-1), std::sqrt(1e2)) << known.name;
-  }
+// A sphere of radius 5, a cylinder of radius 3 and a cone meet in a circle at z = 4. The cone's
+// part up to there has the area 3 * 5 pi, the cap beyond 2 * 5 * 1 pi; the cylinder bounds nothing.
+// In its place, up to z = 4: the cylinder's 2 * 3 * 4 pi and its bottom's 9 pi.
+TEST(CertifiedArea, ThreeSurfacesMayMeetInACurve) {
+  const Solid3 ball_5 = ball({}, 25);
+  const Solid3 cone = solid(domain::make_cone({point(0, 0, 0), {0, 0, 1}}, Rational(9, 16)));
+  const Solid3 cut = intersect(intersect(ball_5, cylinder(2, 9)), cone);
+  const auto cells = [&](const Solid3& set, double expected, double width) {
+    const CertifiedMeasure measure = area(set, cube(6), to_width(width));
+    EXPECT_EQ(measure.stop, StopReason::Width);
+    EXPECT_TRUE(encloses(measure.value, expected));
+    return measure.cells;
+  };
+  const double pi = std::numbers::pi;
+  EXPECT_LE(cells(cut, 25 * pi, 1e-6), 10 * cells(cut, 25 * pi, 1e-3));
+  const Solid3 upper_rod =
+      intersect(intersect(ball_5, cylinder(2, 9)), unite(cone, below({0, 0, -1}, 0)));
+  cells(upper_rod, (10 + 24 + 9) * pi, 1e-6);
+}
+
+// A cylinder touches planes across the axes along lines, and a slanted one too.
+TEST(CertifiedArea, SurfacesMayTouchPlanesAlongLines) {
+  const double pi = std::numbers::pi;
+  const Solid3 rod =
+      intersect(cylinder(2, 1), intersect(below({0, 0, -1}, 0), below({0, 0, 1}, 1)));
+  // In a box that fits.
+  const Box<3> tight(point(-1, -1, 0), point(1, 1, 1));
+  EXPECT_TRUE(encloses(area(rod, tight, to_width(1e-9)).value, 2 * pi));
+  // A block with a half round end: two planes go on as a cylinder.
+  const Solid3 block = domain::make_block(Box<3>(point(-2, -1, 0), point(0, 1, 1)));
+  EXPECT_TRUE(encloses(area(unite(rod, block), cube(3), to_width(1e-9)).value,
+                       2 * (4 + pi / 2) + (4 + 2 + pi)));
+  // 3 x + 4 y <= 5 touches the rod.
+  EXPECT_TRUE(encloses(area(intersect(rod, below({3, 4, 0}, 5)), cube(3), to_width(1e-7)).value,
+                       2 * pi + 2 * pi));
 }
 
 TEST(CertifiedArea, BlocksAreExact) {

@@ -41,4 +41,16 @@ void expect_golden_volumes(const std::vector<Known>& all, const std::string& kin
   }
 }
 
+// Of those whose areas are known.
+template <class Known>
+void expect_golden_areas(const std::vector<Known>& all, const std::string& kind, double width) {
+  const nlohmann::json entries = golden(kind);
+  for (const Known& known : all) {
+    if (!known.area) continue;
+    EXPECT_TRUE(has_golden_value(area(known.set, known.box, to_width(width)),
+                                 entries.at(known.name).at("area")))
+        << known.name << " at " << width;
+  }
+}
+
 }  // namespace exactcsg::measure::test

@@ -54,6 +54,30 @@ void check_witnesses(const Proof& proof, const Regions& regions, const Box<3>& b
   }
 }
 
+// A grid of balls of different radii in a block, and the background: as many cells as balls are
+// left once each is alone with the background, and those decide without rational arithmetic.
+TEST(RegionProof, ManyBallsAndTheirBackgroundArePartitioned) {
+  constexpr int n = 8;
+  Regions regions;
+  std::vector<Solid3> background{domain::make_block(Box<3>(point(0, 0, 0), point(n, n, n)))};
+  for (int i = 0; i < n * n * n; ++i) {
+    const Rational radius = Rational(200 + 37 * i % 250, 1000);  // below 1/2: they do not touch
+    const HalfSpace<3> sphere =
+        domain::make_sphere(point(Rational(2 * (i / n / n) + 1, 2),
+                                  Rational(2 * (i / n % n) + 1, 2), Rational(2 * (i % n) + 1, 2)),
+                            Rational(radius * radius));
+    regions.push_back(solid(sphere));
+    background.push_back(solid(complement(sphere)));
+  }
+  const Solid3 block = background.front();
+  regions.push_back(Solid3::compose(csg::BooleanOperator::Intersection, std::move(background)));
+  ProofLimits limits;
+  limits.cells = 20 * n * n * n;
+  const Proof proof = prove_partition(std::span<const Solid3>(regions), block,
+                                      Box<3>(point(0, 0, 0), point(n, n, n)), limits);
+  EXPECT_TRUE(is_proved(proof));
+}
+
 // Concentric balls and the shells between them, up to the outside.
 Regions shells(int count) {
   Regions regions{ball({}, 1)};

@@ -91,6 +91,14 @@ std::vector<ClosedForm> closed_forms() {
        surface(1, "quadric", "0 0 1 -1 0 0 0 0 0 0") + surface(2, "plane", "1 1 0 2") +
            surface(3, "plane", "1 1 0 -2"),
        "-1 -2 3", 4, 2 * pi * 2 / 3, 0.005},
+      // Pappus: 2 pi times the major radius times the area of the profile.
+      {"torus", surface(1, "z-torus", "0 0 0 5 2 2"), "-1", 8, 40 * pi * pi, 0.03},
+      {"elliptic torus along y", surface(1, "y-torus", "1 0 0 4 1 2"), "-1", 8, 16 * pi * pi, 0.03},
+      {"outside of a torus along x", surface(1, "x-torus", "0 1 0 4 2 1"), "1", 8,
+       4096 - 16 * pi * pi, 0.003},
+      // The circular segment from 1 to 2 of a disc of radius 2, round an axis 5 away.
+      {"torus above a plane", surface(1, "z-torus", "0 0 0 5 2 2") + surface(2, "z-plane", "1"),
+       "-1 2", 8, 10 * pi * (4 * pi / 3 - std::sqrt(3.0)), 0.09},
   };
 }
 
@@ -146,6 +154,43 @@ TEST(NefVolume, SurfacesThatAreNotFacetedAreNamed) {
   }
 }
 
+// Tori without a hole, and one with a hole that is narrower than rounding leaves it.
+TEST(NefVolume, ToriWithoutAHoleAreNamed) {
+  for (const char* coefficients : {"0 0 0 1 2 2", "0 0 0 2 2 2", "0 0 0 2 2 1.9999999"}) {
+    const NefVolume volume = volume_of(model_of(surface(7, "z-torus", coefficients), "-7"), 5);
+    EXPECT_FALSE(volume.bounds) << coefficients;
+    EXPECT_NE(volume.reason.find("surface 7, a z-torus"), std::string::npos) << volume.reason;
+  }
+}
+
+// A ring so thin that no polygon of this many sides lies within.
+TEST(NefVolume, AThinTorusHasAnEmptyPolyhedronWithin) {
+  const NefVolume volume =
+      volume_of(model_of(surface(1, "z-torus", "0 0 0 2 0.001 0.001"), "-1"), 5, 12);
+  ASSERT_TRUE(volume.bounds) << volume.reason;
+  EXPECT_EQ(volume.bounds->lower, 0);
+  EXPECT_GT(nearest_double(volume.bounds->upper), 4 * pi * pi * 1e-6);
+}
+
+// The window is what is seen of the region: half of a cylinder through a slanted plane.
+TEST(NefVolume, AWindowCutsTheRegion) {
+  const io::openmc::Model model = model_of(
+      surface(1, "z-cylinder", "0 0 1") + surface(2, "z-plane", "0") + surface(3, "z-plane", "1") +
+          surface(4, "plane", "3 4 0 0") + surface(5, "z-torus", "0 0 0 5 2 2"),
+      "-1 2 -3");
+  const auto seen_through = [&](std::size_t surface) {
+    return nef_volume(model, model.cells[0].region, cube(2), 24, NefLimits{},
+                      io::openmc::HalfSpaceRegion::primitive(model.surfaces[surface].negative));
+  };
+  const NefVolume half = seen_through(3);
+  ASSERT_TRUE(half.bounds) << half.reason;
+  EXPECT_LT(nearest_double(half.bounds->lower), pi / 2);
+  EXPECT_GT(nearest_double(half.bounds->upper), pi / 2);
+  EXPECT_LT(width_of(*half.bounds), 0.01);
+  EXPECT_FALSE(seen_through(4).bounds);
+  EXPECT_NE(seen_through(4).reason.find("a surface above"), std::string::npos);
+}
+
 TEST(NefVolume, AWrongVolumeIsRefused) {
   const io::openmc::Model model =
       model_of(surface(1, "z-cylinder", "0 0 1") + surface(2, "x-cylinder", "0 0 1"), "-1 -2");
@@ -188,6 +233,66 @@ TEST(VerifyGeometry, NefPolyhedraFindAFaultOfFivePercent) {
   EXPECT_EQ(wrong.checks[0].name, "nef: cell 1");
   EXPECT_EQ(wrong.checks[0].verdict, Verdict::Failed) << render_text(wrong);
   EXPECT_EQ(wrong.checks[2].verdict, Verdict::Passed) << render_text(wrong);
+}
+
+const Check& check_of(const Report& report, const std::string& name) {
+  for (const Check& check : report.checks) {
+    if (check.name == name) return check;
+  }
+  throw std::out_of_range(name);
+}
+
+VerifyGeometryOptions nef_only() {
+  VerifyGeometryOptions options;
+  options.relative_width = 1e-3;
+  options.nef_seconds = 600;
+  options.nef_segments = 16;
+  options.disabled = {"sampling"};
+  return options;
+}
+
+// Cells of universes in a lattice: what is wrong with a surface of theirs is found there.
+TEST(VerifyGeometry, NefPolyhedraFindFaultsBelowTheRoot) {
+  io::openmc::Model model = io::openmc::read_geometry_file(std::string(EXACTCSG_SOURCE_DIR) +
+                                                           "/data/openmc/assembly_17x17.xml");
+  EXPECT_EQ(verify_geometry(model, nef_only()).count(Verdict::Passed), 8U);
+  model.surfaces[3].coefficients[2] = Rational(55, 100);  // the inside of the tubes, for 0.561
+  const Report wrong = verify_geometry(model, nef_only());
+  EXPECT_EQ(check_of(wrong, "nef: cell 5").verdict, Verdict::Failed) << render_text(wrong);
+  EXPECT_EQ(check_of(wrong, "nef: cell 1").verdict, Verdict::Passed);
+}
+
+// Balls of radius 0.6 in elements of side 1, so that each is cut; a lattice turned by 30 degrees in
+// a box that cuts it: the elements differ. Volumes: the sum of all is the box's.
+TEST(VerifyGeometry, ElementsThatAreCutDifferentlyAreAddedUp) {
+  const io::openmc::Model model = io::openmc::read_geometry(
+      "<geometry><surface id='1' type='sphere' coeffs='0 0 0 0.6'/>"
+      "<surface id='2' type='x-plane' coeffs='-1' boundary='vacuum'/>"
+      "<surface id='3' type='x-plane' coeffs='1' boundary='vacuum'/>"
+      "<surface id='4' type='y-plane' coeffs='-1' boundary='vacuum'/>"
+      "<surface id='5' type='y-plane' coeffs='1' boundary='vacuum'/>"
+      "<surface id='6' type='z-plane' coeffs='-0.5' boundary='vacuum'/>"
+      "<surface id='7' type='z-plane' coeffs='0.5' boundary='vacuum'/>"
+      "<cell id='1' universe='1' material='1' region='-1'/>"
+      "<cell id='2' universe='1' material='2' region='1'/>"
+      "<lattice id='9'><dimension>2 2</dimension><lower_left>-1 -1</lower_left><pitch>1 1</pitch>"
+      "<outer>1</outer><universes>1 1 1 1</universes></lattice>"
+      "<cell id='5' fill='9' region='2 -3 4 -5 6 -7' rotation='0 0 30'/></geometry>",
+      "text");
+  const Report report = verify_geometry(model, nef_only());
+  EXPECT_EQ(report.count(Verdict::Passed), 3U) << render_text(report);
+  EXPECT_NE(check_of(report, "nef: cell 1").explanation.find("different instances"),
+            std::string::npos);
+}
+
+TEST(VerifyGeometry, InstancesBeyondTheBudgetAreSkippedWithTheReason) {
+  const io::openmc::Model model = io::openmc::read_geometry_file(std::string(EXACTCSG_SOURCE_DIR) +
+                                                                 "/data/openmc/assembly_17x17.xml");
+  VerifyGeometryOptions options = nef_only();
+  options.nef_seconds = 1e-9;
+  const Report report = verify_geometry(model, options);
+  EXPECT_EQ(report.count(Verdict::Skipped), 8U);
+  EXPECT_NE(check_of(report, "nef: cell 1").explanation.find("over the budget"), std::string::npos);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "exactcsg/solid/fill_rule.hpp"
 #include "exactcsg/solid/solid.hpp"
 #include "exactcsg/support/error.hpp"
 #include "exactcsg/support/progress.hpp"
@@ -46,6 +47,10 @@ struct ReadOptions {
   // model's folder. nullopt: they are refused (a text alone reads no files); read_model fills it
   // in.
   std::optional<std::filesystem::path> folder{};
+  // What is inside of a polyhedron, an imported mesh or a twisted extrusion that meets itself or is
+  // turned inside out. nullopt: they are refused. Not of any use to OpenScadGrid, which knows no
+  // such rule.
+  std::optional<FillRule> fill{};
   Progress* progress = nullptr;
 };
 

@@ -100,19 +100,20 @@ Model read_source(const fs::path& file, const ReadOptions& options) {
   return model;
 }
 
-Model read_mesh(const fs::path& file) {
+Model read_mesh(const fs::path& file, const ReadOptions& options) {
   PolygonSoup soup = read_polygon_soup(file);
   const SourcePosition position{file.string()};
   Model model;
   model.name = file.string();
   model.rounding_bound = soup.rounding_bound;
   try {
-    Primitive primitive = openscad::make_polyhedron(
-        {std::move(soup.vertices), std::move(soup.facets)}, [&](const std::string& text) {
-          model.warnings.push_back({text, position});
-        });
-    primitive.origin = file.string();
-    model.solid = Solid::primitive(std::move(primitive));
+    const InsideRule inside{options.fill,
+                            [&](const std::string& text) {
+                              model.warnings.push_back({text, position});
+                            },
+                            options.progress};
+    model.solid = openscad::solid_of_polyhedron({std::move(soup.vertices), std::move(soup.facets)},
+                                                inside, file.string());
   } catch (const Error& error) {
     throw error.at(position);
   }
@@ -130,7 +131,7 @@ Model read_model(const fs::path& file, const ReadOptions& given) {
   if (ending == ".csg") return read_openscad_csg(read_text(file), file.string(), options);
   if (ending == ".scad") return read_source(file, options);
   if (ending == ".off" || ending == ".stl" || ending == ".obj" || ending == ".ply") {
-    return read_mesh(file);
+    return read_mesh(file, options);
   }
   throw Error(ErrorId::UnknownFormat,
               {ending.empty() ? "a name without an ending" : "'" + ending + "'",

@@ -163,6 +163,23 @@ csg::Membership filtered_class(const HalfSpace<D>& half_space, const Box<D>& box
                                                     : csg::Membership::Unknown;
 }
 
+// The same by tight bounds, and whether it is mixed: nullopt if rounding does not allow to tell. Of
+// one nappe it is not told. REQUIRES no mixed terms
+template <std::size_t D>
+std::optional<csg::Membership> class_by_bounds(const HalfSpace<D>& half_space, const Box<D>& box) {
+  const RangeBounds f = half_space.polynomial().range_bounds(box);
+  if (f.least_lower > 0) return csg::Membership::Out;
+  if (half_space.nappe()) {
+    const RangeBounds g = half_space.nappe()->range_bounds(box);
+    if (g.least_lower > 0) return csg::Membership::Out;
+    if (f.greatest_upper < 0 && g.greatest_upper < 0) return csg::Membership::In;
+    return std::nullopt;
+  }
+  if (f.greatest_upper < 0) return csg::Membership::In;
+  if (f.least_upper < 0 && f.greatest_lower > 0) return csg::Membership::Unknown;
+  return std::nullopt;
+}
+
 // True if one corner is certainly inside and another outside: class_at(corner) -> Membership.
 template <std::size_t D, class ClassAt>
 bool has_mixed_corners(const Box<D>& box, ClassAt&& class_at) {
@@ -181,16 +198,55 @@ bool has_mixed_corners(const Box<D>& box, ClassAt&& class_at) {
   return false;
 }
 
+// Unknown if the doubles do not tell.
+template <std::size_t D>
+csg::Membership filtered_class(const HalfSpace<D>& half_space,
+                               const std::array<CertifiedDouble, D>& point) {
+  const Sign f = certain_sign(half_space.polynomial().approximate(point));
+  const Sign g =
+      half_space.nappe() ? certain_sign(half_space.nappe()->approximate(point)) : Sign::Negative;
+  if (f == Sign::Positive || g == Sign::Positive) return csg::Membership::Out;
+  return f == Sign::Negative && g == Sign::Negative ? csg::Membership::In
+                                                    : csg::Membership::Unknown;
+}
+
 template <std::size_t D>
 bool has_certainly_mixed_corners(const HalfSpace<D>& half_space, const Box<D>& box) {
   return has_mixed_corners(box, [&](const std::array<CertifiedDouble, D>& corner) {
-    const Sign f = certain_sign(half_space.polynomial().approximate(corner));
-    const Sign g =
-        half_space.nappe() ? certain_sign(half_space.nappe()->approximate(corner)) : Sign::Negative;
-    if (f == Sign::Positive || g == Sign::Positive) return csg::Membership::Out;
-    return f == Sign::Negative && g == Sign::Negative ? csg::Membership::In
-                                                      : csg::Membership::Unknown;
+    return filtered_class(half_space, corner);
   });
+}
+
+// A point of the box near which sign f is least, perhaps: by steps along the axes.
+template <std::size_t D>
+std::array<CertifiedDouble, D> low_point(const Quadric<D>& f, double sign, const Box<D>& box) {
+  constexpr int sweeps = 4;
+  std::array<CertifiedDouble, D> x = ApproximateBox<D>(box).middle;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (std::size_t i = 0; i < D; ++i) {
+      const double low = box.lower().approximate()[i].upper();
+      const double high = box.upper().approximate()[i].lower();
+      if (!(low <= high)) continue;
+      const double slope = sign * f.approximate_slope(i, x).value;
+      const double curvature = sign * f.approximate_curvature(i);
+      const double step = curvature > 0 ? -slope / (2 * curvature)
+                          : slope > 0   ? low - high
+                                        : high - low;
+      x[i].value = std::clamp(x[i].value + step, low, high);
+    }
+  }
+  return x;
+}
+
+// True if a point is found that is certainly inside, and one outside.
+template <std::size_t D>
+bool has_certainly_mixed_points(const HalfSpace<D>& half_space, const Box<D>& box) {
+  if (has_certainly_mixed_corners(half_space, box)) return true;
+  if (half_space.polynomial().is_linear()) return false;
+  const auto is_at_low_point = [&](double sign, csg::Membership expected) {
+    return filtered_class(half_space, low_point(half_space.polynomial(), sign, box)) == expected;
+  };
+  return is_at_low_point(1, csg::Membership::In) && is_at_low_point(-1, csg::Membership::Out);
 }
 
 // Without the complement.
@@ -225,11 +281,17 @@ PointClass classify(const HalfSpace<D>& half_space, const Point<D>& point,
 
 template <std::size_t D>
 csg::Membership classify(const HalfSpace<D>& half_space, const Box<D>& box) {
-  csg::Membership result = detail::filtered_class(half_space, box);
-  if (result == csg::Membership::Unknown && !detail::has_certainly_mixed_corners(half_space, box)) {
-    result = detail::exact_class(half_space, box);
-  }
-  return detail::complement_if(half_space.is_complement(), result);
+  const auto without_complement = [&] {
+    const csg::Membership filtered = detail::filtered_class(half_space, box);
+    if (filtered != csg::Membership::Unknown) return filtered;
+    if (!half_space.polynomial().has_mixed_terms()) {
+      if (const auto known = detail::class_by_bounds(half_space, box)) return *known;
+    }
+    return detail::has_certainly_mixed_points(half_space, box)
+               ? csg::Membership::Unknown
+               : detail::exact_class(half_space, box);
+  };
+  return detail::complement_if(half_space.is_complement(), without_complement());
 }
 
 namespace detail {

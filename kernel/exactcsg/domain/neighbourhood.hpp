@@ -14,12 +14,18 @@
 // LAW germs.2  if `complete`, every cell has a germ.
 //
 // Lines and circles in the plane are always complete: two that touch differ in curvature. In space,
-// complete are: any number of planes; surfaces whose tangent planes are different, three of which
-// share a tangent only if the surfaces share a line, or a circle round the axis of a torus among
-// them; and two surfaces that touch, if the difference of their curvatures is definite or
-// indefinite, or they touch along a line or such a circle; the apex of one cone, the tip of one
-// spindle torus. Not: apices and tips on another surface; the centre of a horn torus; surfaces that
-// osculate.
+// complete are
+//   - any number of planes; surfaces whose tangent planes are different, three of which share a
+//     tangent only if the surfaces share a line or, as surfaces of revolution, a circle;
+//   - any number of surfaces that touch, if their curvatures differ: where two of them are equally
+//     high over a direction of the tangent plane they cross there, and no third one and no other
+//     tangent plane meets them; or all that meet there share a line or a circle along which those
+//     with one tangent plane touch;
+//   - at the apex of a cone, which may be that of several: any number of cones and planes through
+//     it; other surfaces, and the tip of one spindle torus, which meet those only in different
+//     directions and cross them there.
+// Not: surfaces that osculate; others that meet in one direction; surfaces that touch in an apex; a
+// cone or another torus at the tip of a torus; the centre of a horn torus, but of that torus alone.
 //
 // Source: Tilove, Requicha and Voelcker (neighbourhoods); Davy and Dew, section 3.2, leave it out.
 

@@ -9,6 +9,9 @@
 // LAW quadric.2  range(f, box) is the least and the greatest value of f on the box.
 // LAW quadric.3  restrict(f, section)(t) == f(section.at(t)).
 // LAW quadric.4  substitute(f, M)(x) == f(M x), M an affine map.
+// LAW quadric.5  f.range_bounds(box) encloses the least and the greatest value, tight but for
+//                rounding.
+// LAW quadric.6  is_nowhere_negative(f, box) iff range(f, box).minimum >= 0.
 // COST: sign a dozen operations in certified doubles; near zero, O(D^2) in integers on the stack
 // (fixed_width_sign.hpp), or in rationals if these would be too long; range the
 // solution of at most 3^D systems of at most D linear equations.
@@ -19,6 +22,7 @@
 // line through that point in the face, which ends in a smaller face: so such faces need no
 // solution.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -52,6 +56,14 @@ struct LinearForm {
   }
 };
 
+// Bounds of the least and of the greatest value on a box.
+struct RangeBounds {
+  double least_lower = 0;
+  double least_upper = 0;
+  double greatest_lower = 0;
+  double greatest_upper = 0;
+};
+
 template <std::size_t D>
 class Quadric {
  public:
@@ -69,6 +81,7 @@ class Quadric {
       for (std::size_t j = 0; j < D; ++j) {
         approximate_square_[i][j] = certified_double_of(square_[i][j]);
         is_linear_ = is_linear_ && square_[i][j] == 0;
+        has_mixed_terms_ = has_mixed_terms_ || (i != j && square_[i][j] != 0);
       }
     }
     fixed_width_ = FixedWidthPolynomial<D>(coefficients());
@@ -77,6 +90,8 @@ class Quadric {
   const Matrix& square() const noexcept { return square_; }
   const LinearForm<D>& linear() const noexcept { return linear_; }
   bool is_linear() const noexcept { return is_linear_; }
+  // Products of different variables.
+  bool has_mixed_terms() const noexcept { return has_mixed_terms_; }
 
   Rational operator()(const Coordinates<D>& x) const {
     Rational value = linear_.constant;
@@ -143,6 +158,11 @@ class Quadric {
     return slope;
   }
 
+  // Half the second derivative along an axis. [Approximate]
+  double approximate_curvature(std::size_t axis) const {
+    return approximate_square_[axis][axis].value;
+  }
+
   // v' A v, half the second derivative along v.
   Rational half_curvature(const Coordinates<D>& v) const {
     Rational value;
@@ -177,6 +197,30 @@ class Quadric {
     return bound * (1 + 0x1p-40);
   }
 
+  // Tight but for rounding: the sum of what its parts in one variable take on.
+  // REQUIRES no mixed terms. [Certified]
+  RangeBounds range_bounds(const Box<D>& box) const {
+    const double constant = approximate_constant_.value;
+    RangeBounds sum{constant, constant, constant, constant};
+    double magnitudes = std::abs(constant);
+    for (std::size_t i = 0; i < D; ++i) {
+      const RangeBounds part =
+          bounds_along(i, box.lower().approximate()[i], box.upper().approximate()[i]);
+      sum.least_lower += part.least_lower;
+      sum.least_upper += part.least_upper;
+      sum.greatest_lower += part.greatest_lower;
+      sum.greatest_upper += part.greatest_upper;
+      magnitudes += std::max({std::abs(part.least_lower), std::abs(part.least_upper),
+                              std::abs(part.greatest_lower), std::abs(part.greatest_upper)});
+    }
+    const double rounding = approximate_constant_.error + 0x1p-48 * magnitudes;
+    sum.least_lower -= rounding;
+    sum.least_upper += rounding;
+    sum.greatest_lower -= rounding;
+    sum.greatest_upper += rounding;
+    return sum;
+  }
+
   friend bool operator==(const Quadric& f, const Quadric& g) {
     return f.square_ == g.square_ && f.linear_.normal == g.linear_.normal &&
            f.linear_.constant == g.linear_.constant;
@@ -194,11 +238,39 @@ class Quadric {
     return result;
   }
 
+  // Of a x^2 + b x, at the ends and where the derivative vanishes between them.
+  RangeBounds bounds_along(std::size_t axis, const CertifiedDouble& from,
+                           const CertifiedDouble& to) const {
+    const CertifiedDouble& a = approximate_square_[axis][axis];
+    const CertifiedDouble& b = approximate_linear_[axis];
+    const CertifiedDouble at_from = (a * from + b) * from;
+    const CertifiedDouble at_to = (a * to + b) * to;
+    RangeBounds result{
+        std::min(at_from.lower(), at_to.lower()), std::min(at_from.upper(), at_to.upper()),
+        std::max(at_from.lower(), at_to.lower()), std::max(at_from.upper(), at_to.upper())};
+    if (is_exactly_zero(a)) return result;
+    const CertifiedDouble vertex = -b / (CertifiedDouble{2, 0} * a);
+    const CertifiedDouble after = vertex - from;
+    const CertifiedDouble before = to - vertex;
+    if (-after.value > after.error || -before.value > before.error) return result;
+    const bool is_between = after.value > after.error && before.value > before.error;
+    const CertifiedDouble there = b * vertex / CertifiedDouble{2, 0};
+    if (a.value > 0) {
+      result.least_lower = std::min(result.least_lower, there.lower());
+      if (is_between) result.least_upper = std::min(result.least_upper, there.upper());
+    } else {
+      result.greatest_upper = std::max(result.greatest_upper, there.upper());
+      if (is_between) result.greatest_lower = std::max(result.greatest_lower, there.lower());
+    }
+    return result;
+  }
+
   static bool is_exactly_zero(const CertifiedDouble& x) { return x.value == 0 && x.error == 0; }
   static double magnitude(CertifiedDouble x) { return std::abs(x.value) + x.error; }
 
   // The filter's data first: they are what is usually read.
   bool is_linear_ = true;
+  bool has_mixed_terms_ = false;
   CertifiedDouble approximate_constant_;
   std::array<CertifiedDouble, D> approximate_linear_;
   std::array<std::array<CertifiedDouble, D>, D> approximate_square_;
@@ -383,6 +455,17 @@ Range range(const Quadric<D>& f, const Box<D>& box) {
     return true;
   });
   return *result;
+}
+
+// f >= 0 on the box.
+template <std::size_t D>
+bool is_nowhere_negative(const Quadric<D>& f, const Box<D>& box) {
+  if (!f.has_mixed_terms()) {
+    const RangeBounds bounds = f.range_bounds(box);
+    if (bounds.least_lower >= 0) return true;
+    if (bounds.least_upper < 0) return false;
+  }
+  return range(f, box).minimum >= 0;
 }
 
 }  // namespace exactcsg::domain

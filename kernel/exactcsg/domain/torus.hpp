@@ -37,7 +37,8 @@ class Torus {
  public:
   static constexpr std::size_t dimension = 3;
 
-  // REQUIRES base and radicand as above for some affine map, squared_ratio > 0
+  // REQUIRES base and radicand as above for some affine map, squared_ratio > 0. The map may be
+  // singular: then the set is a cylinder over a section of a torus.
   Torus(Quadric<3> base, Quadric<3> radicand, Rational squared_ratio)
       : data_(std::make_shared<const Data>(std::move(base), std::move(radicand),
                                            std::move(squared_ratio))) {}

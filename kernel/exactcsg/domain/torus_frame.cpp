@@ -17,10 +17,7 @@ TorusFrame::TorusFrame(const Torus& torus) : squared_radius_(Rational(1, 4) * to
     direction_ = detail::vector_product(squared_radius_.square()[rows_[0]],
                                         squared_radius_.square()[rows_[1]]);
   }
-  // Where the gradient of rho^2 is 0, and w.
-  const Coordinates<3>& slope = squared_radius_.linear().normal;
-  centre_ = solved({Rational(-slope[rows_[0]] / 2), Rational(-slope[rows_[1]] / 2)},
-                   Rational(-along_.constant));
+  centre_ = on_axis(0);
 }
 
 // The x whose products with the two rows of rho^2 and with the normal of w are these.
@@ -36,24 +33,45 @@ Coordinates<3> TorusFrame::solved(const std::array<Rational, 2>& across,
   return *detail::solved<3>(std::move(equations), 3);
 }
 
-std::optional<AxialForm> TorusFrame::form(const Quadric<3>& f) const {
-  AxialForm result;
+// Where the gradient of rho^2 is 0.
+Coordinates<3> TorusFrame::on_axis(const Rational& w) const {
+  const Coordinates<3>& slope = squared_radius_.linear().normal;
+  return solved({Rational(-slope[rows_[0]] / 2), Rational(-slope[rows_[1]] / 2)},
+                Rational(w - along_.constant));
+}
+
+Quadric<3> TorusFrame::rest(const Quadric<3>& f, AxialForm& form) const {
   const Rational advance = detail::scalar_product(along_.normal, direction_);
-  result.square = f.half_curvature(direction_) / (advance * advance);
-  const Quadric<3> without_square = f + Rational(-result.square) * product(along_, along_);
+  form.square = f.half_curvature(direction_) / (advance * advance);
+  const Quadric<3> without_square = f + Rational(-form.square) * product(along_, along_);
   std::size_t row = 0;
   while (squared_radius_.square()[row][row] == 0) ++row;
-  result.radial = without_square.square()[row][row] / squared_radius_.square()[row][row];
-  const Quadric<3> rest = without_square + Rational(-result.radial) * squared_radius_;
-  if (!rest.is_linear()) return std::nullopt;
-  const Coordinates<3>& normal = rest.linear().normal;
-  result.linear = detail::scalar_product(normal, direction_) / advance;
-  result.constant = rest(centre_);
-  // With R u = n, n v = u'R v is at most sqrt(u'R u) sqrt(v'R v) = sqrt(n u) rho.
+  form.radial = without_square.square()[row][row] / squared_radius_.square()[row][row];
+  Quadric<3> rest = without_square + Rational(-form.radial) * squared_radius_;
+  form.linear = detail::scalar_product(rest.linear().normal, direction_) / advance;
+  return rest;
+}
+
+// The u across the axis with R u = n, n the part of the normal that is not along w.
+Coordinates<3> TorusFrame::uphill(const Coordinates<3>& normal, const Rational& along) const {
   const Coordinates<3> across =
-      detail::sum(normal, detail::scaled(Rational(-result.linear), along_.normal));
-  const Coordinates<3> u = solved({across[rows_[0]], across[rows_[1]]}, 0);
-  result.squared_slope = detail::scalar_product(across, u);
+      detail::sum(normal, detail::scaled(Rational(-along), along_.normal));
+  return solved({across[rows_[0]], across[rows_[1]]}, 0);
+}
+Coordinates<3> TorusFrame::uphill(const Quadric<3>& f) const {
+  AxialForm form;
+  const Quadric<3> linear = rest(f, form);
+  return uphill(linear.linear().normal, form.linear);
+}
+
+std::optional<AxialForm> TorusFrame::form(const Quadric<3>& f) const {
+  AxialForm result;
+  const Quadric<3> linear = rest(f, result);
+  if (!linear.is_linear()) return std::nullopt;
+  result.constant = linear(centre_);
+  // n v = u'R v is at most sqrt(u'R u) sqrt(v'R v) = sqrt(n u) rho.
+  const Coordinates<3>& normal = linear.linear().normal;
+  result.squared_slope = squared_distance(uphill(normal, result.linear));
   return result;
 }
 

@@ -27,6 +27,10 @@ struct AxialForm {
 // LAW torus_frame.1  form(f), if there is one, describes f; there is none if the terms of degree
 //                    two of f have other directions than those of the torus.
 // LAW torus_frame.2  z^2 of the torus is w^2 * squared_unit().
+// LAW torus_frame.3  on_axis(w) is the point of the axis at w; squared_distance(d) is the square of
+//                    the distance of on_axis(w) + d from the axis, in units of the major radius.
+// LAW torus_frame.4  of all directions across the axis, f grows most along uphill(f), which is 0 if
+//                    f is coaxial. REQUIRES form(f)
 // COST: O(1) rational operations.
 class TorusFrame {
  public:
@@ -35,8 +39,16 @@ class TorusFrame {
   std::optional<AxialForm> form(const Quadric<3>& f) const;
   const LinearForm<3>& along() const noexcept { return along_; }  // w
   const Rational& squared_unit() const noexcept { return squared_unit_; }
+  Coordinates<3> on_axis(const Rational& w) const;
+  Rational squared_distance(const Coordinates<3>& d) const {
+    return squared_radius_.half_curvature(d);
+  }
+  Coordinates<3> uphill(const Quadric<3>& f) const;
 
  private:
+  // What is left of f if the terms of degree two are taken off: linear, if form(f) is there.
+  Quadric<3> rest(const Quadric<3>& f, AxialForm& form) const;
+  Coordinates<3> uphill(const Coordinates<3>& normal, const Rational& along) const;
   Coordinates<3> solved(const std::array<Rational, 2>& across, const Rational& along) const;
 
   Quadric<3> squared_radius_;

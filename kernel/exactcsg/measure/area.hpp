@@ -12,18 +12,19 @@
 // LAW area.1  the area lies in value.
 // LAW area.2  as LAW certified_measure.2 and certified_measure.3.
 // LAW area.3  area(complement(tree), box) is the same.
-// REQUIRES domain::HalfSpace<3>, or primitives with overloads of what is called here. Trees with
-// tori have none and do not compile: what a plane across the axes cuts of a torus is no quadric.
-// COST: as volume (certified_measure.hpp). The width falls, in the number n of cells, as n^-2: that
-// is what edges cost, where two surfaces cross or one leaves a column; as n^-3.5 within a graph.
-// Surfaces that share a piece and have other polynomials leave bounds apart by the area of that
-// piece.
+// REQUIRES half-spaces of quadrics or of tori, or primitives with overloads of what is called here.
+// COST: the box is divided into cells as for volumes, until in each every surface is a graph across
+// some axis; what of each is boundary is an integral over a face (patch.hpp), which is divided
+// further. The width falls, in the number n of cells, as n^-3 at least, also along edges, and where
+// three surfaces meet in one. Where two surfaces touch along a curve, areas are known to about the
+// root of the rounding errors, a relative 1e-8 of the cells there, unless one is a plane across an
+// axis. Surfaces that share a piece and have other polynomials leave bounds apart by the area of
+// that piece.
 //
-// Over a rectangle of a column the area of a graph is an integral of the root of a polynomial in
-// its slopes. In other cells a line crosses a surface a few times only, so that its area is at most
-// those times the sum of the areas of the cell's shadows along the three axes. Boundary on planes
-// across the axes, at which cells are divided, is a set in the plane: where the trees of what is
-// just below and just above differ.
+// In other cells a line crosses a surface a few times only, so that its area is at most those times
+// the sum of the areas of the cell's shadows along the three axes. Boundary on planes across the
+// axes, at which cells are divided, is a set in the plane: where the trees of what is just below
+// and just above differ.
 
 #include <algorithm>
 #include <array>
@@ -33,6 +34,7 @@
 #include <vector>
 
 #include "exactcsg/measure/certified_measure.hpp"
+#include "exactcsg/measure/patch.hpp"
 #include "exactcsg/measure/substitution.hpp"
 
 namespace exactcsg::measure {
@@ -42,6 +44,9 @@ namespace detail {
 // How often a line that does not lie in the surface crosses it at most.
 inline unsigned most_crossings(const domain::HalfSpace<3>& half_space) {
   return half_space.polynomial().is_linear() ? 1 : 2;
+}
+inline unsigned most_crossings(const domain::SurfaceHalfSpace& half_space) {
+  return half_space.quadric() != nullptr ? most_crossings(*half_space.quadric()) : 4;
 }
 
 // What the form is where one coordinate is a constant.
@@ -95,65 +100,111 @@ inline domain::Solid3 restricted(const domain::HalfSpace<3>& half_space, const A
   }
   return half_space.is_complement() ? csg::complement(std::move(result)) : result;
 }
+// No plane is a part of a torus: what is just above is what is just below.
+inline domain::Torus restricted(const domain::Torus& torus, const AxisPlane& plane) {
+  const domain::Torus result(restricted(torus.base(), plane), restricted(torus.radicand(), plane),
+                             torus.squared_ratio());
+  return torus.is_complement() ? complement(result) : result;
+}
+inline csg::BooleanTree<domain::SurfaceHalfSpace> restricted(
+    const domain::SurfaceHalfSpace& half_space, const AxisPlane& plane, bool is_above) {
+  using Tree = csg::BooleanTree<domain::SurfaceHalfSpace>;
+  if (const domain::Torus* torus = half_space.torus()) {
+    return Tree::primitive(restricted(*torus, plane));
+  }
+  return csg::map(restricted(*half_space.quadric(), plane, is_above),
+                  [](const domain::HalfSpace<3>& h) { return domain::SurfaceHalfSpace(h); });
+}
 
 // Where the boundary is in the plane, as a set that does not depend on the coordinate along the
 // axis.
 template <SpatialDomain P>
-domain::Solid3 boundary_in(const AxisPlane& plane, const csg::BooleanTree<P>& tree) {
+csg::BooleanTree<P> boundary_in(const AxisPlane& plane, const csg::BooleanTree<P>& tree) {
   const auto side = [&](bool is_above) {
-    return substituted(tree,
-                       [&](const P& primitive) { return restricted(primitive, plane, is_above); });
+    return substituted<csg::BooleanTree<P>>(
+        tree, [&](const P& primitive) { return restricted(primitive, plane, is_above); });
   };
   return csg::simplify(csg::symmetric_difference(side(false), side(true)));
 }
 
-// The area of graphs in a column.
-class GraphArea {
- public:
-  // Of the heights' scale in relation to the scales along the rectangle's sides, squared.
-  GraphArea(const CertifiedDouble& along_s, const CertifiedDouble& along_t)
-      : along_s_(along_s), along_t_(along_t) {}
+// All of the zeros of the polynomial: both nappes of a cone.
+inline domain::HalfSpace<3> whole_surface(const domain::HalfSpace<3>& half_space) {
+  return half_space.nappe() ? domain::HalfSpace<3>(half_space.polynomial()) : half_space;
+}
+inline domain::SurfaceHalfSpace whole_surface(const domain::SurfaceHalfSpace& half_space) {
+  if (half_space.quadric() == nullptr) return half_space;
+  return whole_surface(*half_space.quadric());
+}
 
-  CertifiedDouble operator()(const Graph& graph, const Rectangle& r) const {
-    constexpr std::size_t degree = series_order - 1;
-    return detail::integral(r, density(graph.series_at_centre(degree), degree - 1),
-                            density(graph.series_anywhere(), degree), degree);
-  }
-  // Encloses the area over the rectangle's, at every point of the graph.
-  CertifiedDouble density(const UnitSurface& f, const Graph& graph, const Rectangle& r) const {
-    return density(f, {CertifiedDouble{r.s, r.a}, CertifiedDouble{r.t, r.b},
-                       between(graph.lower(), graph.upper())});
-  }
-  double bound(const UnitSurface& f, const Rectangle& r) const {
-    const CertifiedDouble greatest =
-        density(f, {CertifiedDouble{r.s, r.a}, CertifiedDouble{r.t, r.b}, CertifiedDouble{0, 1}});
-    return magnitude(greatest) * r.area() * (1 + 0x1p-48);
-  }
+// Whether nothing of the surface is in the cells of the same size beyond the top and below the
+// bottom: then a surface that touches the plane of one does not pass it.
+template <SpatialDomain P>
+Patch::Stays stays_in(const P& surface, const UnitSurface& f, const Box3& box, std::size_t axis) {
+  const Rational height = box.upper()[axis] - box.lower()[axis];
+  const auto has_nothing = [&](bool is_above) {
+    const Rectangle whole;
+    const CertifiedDouble range = f.with_height(axis).range_at(whole, is_above ? 1 : -1);
+    if (is_positive(range) || is_negative(range)) return false;
+    domain::Coordinates<3> lower = box.lower().coordinates();
+    domain::Coordinates<3> upper = box.upper().coordinates();
+    lower[axis] += is_above ? height : Rational(-height);
+    upper[axis] += is_above ? height : Rational(-height);
+    return classify(whole_surface(surface), Box3(lower, upper)) != csg::Membership::Unknown;
+  };
+  return {has_nothing(false), has_nothing(true)};
+}
 
- private:
-  CertifiedDouble density(const UnitSurface& f, const UnitSurface::Vector& at) const {
-    const CertifiedDouble slope = f.derivative(2, at);
-    const CertifiedDouble s = f.derivative(0, at) / slope;
-    const CertifiedDouble t = f.derivative(1, at) / slope;
-    return root_of_at_least_one(exactly(1) + along_s_ * s * s + along_t_ * t * t);
+// The axis across which the surface is a graph in the cell, and not a steep one.
+inline std::optional<std::size_t> axis_of_graph(const UnitSurface& f) {
+  constexpr double least_quality = 0.5;
+  std::optional<std::size_t> result;
+  double best = least_quality;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double quality = graph_quality({f}, i);
+    if (quality < best) continue;
+    best = quality;
+    result = i;
   }
-  Series density(const Series& height, std::size_t degree) const {
-    const Series s = derivative(height, 0, degree);
-    const Series t = derivative(height, 1, degree);
-    const Series square = sum(scaled(along_s_, product(s, s, degree), degree),
-                              scaled(along_t_, product(t, t, degree), degree), degree);
-    return root(sum(constant_series(exactly(1)), square, degree), degree);
-  }
+  return result;
+}
 
-  CertifiedDouble along_s_;
-  CertifiedDouble along_t_;
-};
+// Of a cell in which each surface is a graph across some axis.
+template <SpatialDomain P>
+std::vector<Patch> patches_of(const SurfaceTable<P>& table, const LiteralTree& tree,
+                              const Box3& box) {
+  constexpr std::size_t most_surfaces = 12;
+  std::vector<Patch> result;
+  if constexpr (requires(const P& p) { local_polynomial(p, box); }) {
+    const auto numbers = surfaces_of(tree, most_surfaces);
+    if (!numbers) return result;
+    std::vector<UnitSurface> surfaces;
+    std::vector<std::size_t> axes;
+    for (const std::uint32_t number : *numbers) {
+      const auto f = local_polynomial(table[number], box);
+      const auto axis = f ? axis_of_graph(*f) : std::nullopt;
+      if (!axis) return result;
+      surfaces.push_back(*f);
+      axes.push_back(*axis);
+    }
+    const auto cell = std::make_shared<Patch::Cell>();
+    cell->surfaces = std::move(surfaces);
+    cell->tree = csg::flatten(tree, [&](const Literal& literal) {
+      const auto place = std::lower_bound(numbers->begin(), numbers->end(), literal.surface);
+      return Literal{static_cast<std::uint32_t>(place - numbers->begin()), literal.is_complemented};
+    });
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      result.emplace_back(cell, k, axes[k],
+                          stays_in(table[(*numbers)[k]], cell->surfaces[k], box, axes[k]),
+                          half_lengths(box, (axes[k] + 1) % 3));
+    }
+  }
+  return result;
+}
 
 // What IntegralMeter measures: the area of the boundary but for planes across the axes.
 class AreaMeasure {
  public:
   static constexpr bool is_never_negative = true;
-  static constexpr bool divides_by_trial = true;
 
   Rational in_full_cell(const Box3&) const { return 0; }
 
@@ -175,26 +226,11 @@ class AreaMeasure {
     return up_to(exactly(4 * crossings) * shadows);
   }
 
-  class InColumn {
-   public:
-    InColumn(const std::array<CertifiedDouble, 3>& half)
-        : metric_(squared(half[2] / half[0]), squared(half[2] / half[1])),
-          scale_(half[0] * half[1]) {}
-    CertifiedDouble of_any_part(const Column& column, const Rectangle& r) const {
-      return up_to(exactly(column.boundary_bound(r, metric_)) * scale_);
-    }
-    CertifiedDouble operator()(const Column& column, const Rectangle& r) const {
-      const CertifiedDouble area = column.boundary(r, metric_);
-      return is_zero(area) ? area : area * scale_;  // a product is never without rounding
-    }
-
-   private:
-    static CertifiedDouble squared(const CertifiedDouble& x) { return x * x; }
-    GraphArea metric_;
-    CertifiedDouble scale_;
-  };
-  InColumn in_column(const Box3& box, const Column& column) const {
-    return InColumn(half_lengths(box, (column.axis() + 1) % 3));
+  using Part = Patch;
+  template <SpatialDomain P>
+  std::vector<Patch> parts(const SurfaceTable<P>& table, const LiteralTree& tree,
+                           const Box3& box) const {
+    return patches_of(table, tree, box);
   }
 };
 

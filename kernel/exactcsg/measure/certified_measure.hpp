@@ -16,7 +16,7 @@
 // COST: the box is divided into cells, those first whose bounds are furthest apart; in each the
 // tree is pruned. A cell in which every surface left is a graph over the same face becomes a
 // column (column.hpp): only the face is divided further. There the width falls, in the number n of
-// cells, as n^-3 where one surface is left or two cross, as n^-2 at worst. Other primitives:
+// cells, as n^-4 where one surface is left or two cross, as n^-2 at worst. Other primitives:
 // n^-1/2.
 //
 // Source: Davy and Dew, section 3.4 and 5.3 (the area of a set by division and pruning); bounds,
@@ -94,12 +94,46 @@ inline std::array<CertifiedDouble, 3> half_lengths(const Box3& box, std::size_t 
   return result;
 }
 
+// A column and what is measured in it: a part of a cell, of which rectangles are divided.
+template <class InColumn>
+class MeasuredColumn {
+ public:
+  MeasuredColumn(Column column, InColumn measure)
+      : column_(std::move(column)), measure_(std::move(measure)) {}
+
+  CertifiedDouble of_any_part(const Rectangle& r) const { return measure_.of_any_part(column_, r); }
+  CertifiedDouble operator()(const Rectangle& r) const { return measure_(column_, r); }
+
+  // Along both sides, or along one if the heights hardly vary along the other.
+  std::array<int, 2> parts(const Rectangle& r) const {
+    constexpr double hardly = 0.25;
+    const std::array<double, 2> variations = column_.variations(r);
+    return {variations[0] < hardly * variations[1] ? 1 : 2,
+            variations[1] < hardly * variations[0] ? 1 : 2};
+  }
+
+ private:
+  Column column_;
+  InColumn measure_;
+};
+
+// The one column that a cell is, or none.
+template <class InColumn, SpatialDomain P, class MeasureIn>
+std::vector<MeasuredColumn<InColumn>> measured_column(const SurfaceTable<P>& table,
+                                                      const LiteralTree& tree, const Box3& box,
+                                                      MeasureIn&& measure_in) {
+  std::vector<MeasuredColumn<InColumn>> result;
+  if (std::optional<Column> column = column_of(table, tree, box)) {
+    InColumn measure = measure_in(*column);
+    result.emplace_back(std::move(*column), std::move(measure));
+  }
+  return result;
+}
+
 // What IntegralMeter measures: the volume.
 class VolumeMeasure {
  public:
   static constexpr bool is_never_negative = true;
-  // How rectangles are divided: by what their parts would be, or by how surfaces vary.
-  static constexpr bool divides_by_trial = false;
 
   Rational in_full_cell(const Box3& box) const { return volume_of(box); }
   // Of any part of the cell.
@@ -123,7 +157,15 @@ class VolumeMeasure {
    private:
     CertifiedDouble scale_;  // the volume of the cell over that of its own coordinates
   };
-  InColumn in_column(const Box3& box, const Column&) const { return InColumn(box); }
+  using Part = MeasuredColumn<InColumn>;
+  // The parts that a cell consists of, of which only rectangles need be divided; none if the cell
+  // is to be divided itself.
+  template <SpatialDomain P>
+  std::vector<Part> parts(const SurfaceTable<P>& table, const LiteralTree& tree,
+                          const Box3& box) const {
+    return measured_column<InColumn>(table, tree, box,
+                                     [&](const Column&) { return InColumn(box); });
+  }
 };
 
 template <SpatialDomain P, class Measure>
@@ -169,10 +211,7 @@ class IntegralMeter {
   }
 
  private:
-  struct LocalColumn {
-    Column column;
-    typename Measure::InColumn measure;
-  };
+  using Part = typename Measure::Part;
   struct LocalCell {
     Box3 box;
     LiteralTree tree;
@@ -180,8 +219,8 @@ class IntegralMeter {
   };
   struct Leaf {
     CertifiedDouble value;
-    std::shared_ptr<const LocalColumn> column;
-    std::shared_ptr<const LocalCell> cell;  // if there is no column
+    std::shared_ptr<const Part> part;
+    std::shared_ptr<const LocalCell> cell;  // if there is no part
     Rectangle rectangle;
     friend bool operator<(const Leaf& a, const Leaf& b) { return a.value.error < b.value.error; }
   };
@@ -203,11 +242,12 @@ class IntegralMeter {
       return;
     }
     const std::optional<AxisPlane> cut = axis_cut(table_, tree, box);
-    if (std::optional<Column> column = cut ? std::nullopt : column_of(table_, tree, box)) {
-      auto local_measure = measure_.in_column(box, *column);
-      const auto local = std::make_shared<const LocalColumn>(
-          LocalColumn{std::move(*column), std::move(local_measure)});
-      return add_rectangle(local, Rectangle());
+    if (!cut) {
+      std::vector<Part> parts = measure_.parts(table_, tree, box);
+      for (Part& part : parts) {
+        add_rectangle(std::make_shared<const Part>(std::move(part)), Rectangle());
+      }
+      if (!parts.empty()) return;
     }
     DividingAxis axis(box);
     axis.add(table_, tree, box);
@@ -217,10 +257,10 @@ class IntegralMeter {
           Rectangle()});
   }
 
-  void add_rectangle(const std::shared_ptr<const LocalColumn>& local, const Rectangle& r) {
+  void add_rectangle(const std::shared_ptr<const Part>& part, const Rectangle& r) {
     count();
-    const CertifiedDouble any = local->measure.of_any_part(local->column, r);
-    CertifiedDouble value = local->measure(local->column, r);
+    const CertifiedDouble any = part->of_any_part(r);
+    CertifiedDouble value = (*part)(r);
     if (!(value.error < any.error)) value = any;  // says nothing; or has overflown
     // Rounding is all that is left, or soon would be.
     constexpr double negligible = 0x1p-41;
@@ -229,7 +269,7 @@ class IntegralMeter {
       width_ += 2 * value.error;
       middle_ += value.value;
     } else {
-      push({value, local, nullptr, r});
+      push({value, part, nullptr, r});
     }
   }
 
@@ -244,59 +284,24 @@ class IntegralMeter {
     leaves_.pop();
     width_ -= 2 * leaf.value.error;
     middle_ -= leaf.value.value;
-    if (leaf.column == nullptr) {
-      const auto parts = divided(leaf.cell->box, leaf.cell->cut);
-      add_cell(parts.first, leaf.cell->tree);
-      add_cell(parts.second, leaf.cell->tree);
+    if (leaf.part == nullptr) {
+      const auto halves = divided(leaf.cell->box, leaf.cell->cut);
+      add_cell(halves.first, leaf.cell->tree);
+      add_cell(halves.second, leaf.cell->tree);
       return;
     }
-    divide(leaf.column, leaf.rectangle);
+    divide(leaf.part, leaf.rectangle);
   }
 
-  void divide(const std::shared_ptr<const LocalColumn>& column, const Rectangle& r) {
-    const std::array<int, 2> parts = Measure::divides_by_trial
-                                         ? parts_by_trial(*column, r)
-                                         : parts_by_variation(column->column, r);
-    for_each_part(r, parts, [&](const Rectangle& part) { add_rectangle(column, part); });
-  }
-
-  template <class Visit>
-  static void for_each_part(const Rectangle& r, const std::array<int, 2>& parts, Visit&& visit) {
+  void divide(const std::shared_ptr<const Part>& part, const Rectangle& r) {
+    const std::array<int, 2> parts = part->parts(r);
     const double a = r.a / parts[0];
     const double b = r.b / parts[1];
     for (int i = 0; i < parts[0]; ++i) {
       for (int j = 0; j < parts[1]; ++j) {
-        visit(Rectangle{r.s - r.a + (2 * i + 1) * a, r.t - r.b + (2 * j + 1) * b, a, b});
+        add_rectangle(part, {r.s - r.a + (2 * i + 1) * a, r.t - r.b + (2 * j + 1) * b, a, b});
       }
     }
-  }
-
-  // Along both sides, or along one if the heights hardly vary along the other.
-  static std::array<int, 2> parts_by_variation(const Column& column, const Rectangle& r) {
-    constexpr double hardly = 0.25;
-    const std::array<double, 2> variations = column.variations(r);
-    return {variations[0] < hardly * variations[1] ? 1 : 2,
-            variations[1] < hardly * variations[0] ? 1 : 2};
-  }
-
-  // Along the side that leaves the less width, or along both if neither leaves much less: where a
-  // surface touches the bottom along a line, heights hardly vary across the line, but what is on
-  // either side of it does.
-  static std::array<int, 2> parts_by_trial(const LocalColumn& column, const Rectangle& r) {
-    const auto error = [&](const std::array<int, 2>& parts) {
-      double sum = 0;
-      for_each_part(r, parts, [&](const Rectangle& part) {
-        sum += column.measure(column.column, part).error;
-      });
-      return sum;
-    };
-    constexpr std::array<int, 2> along_s{2, 1};
-    constexpr std::array<int, 2> along_t{1, 2};
-    constexpr double hardly_less = 0.75;
-    const double error_s = error(along_s);
-    const double error_t = error(along_t);
-    if (std::min(error_s, error_t) > hardly_less * error({1, 1})) return {2, 2};
-    return error_s <= error_t ? along_s : along_t;
   }
 
   CertifiedDouble sum_of_leaves() const {

@@ -12,7 +12,7 @@
 // integrated (graph.hpp). Two whose ranges overlap are passed in the order of the sign of the
 // difference D of their heights:
 //   (T00 - T11) Z1 + (T11 - T10) D + (T10 + T01 - T00 - T11) max(0, D),  D = Z1 - Z2,
-// T10 the truth when only the first has been passed; D has a linear model. For more than two,
+// T10 the truth when only the first has been passed (positive_part.hpp). For more than two,
 // or surfaces that are no proved graphs, the truth is bounded on the slabs between the ranges'
 // ends.
 //
@@ -20,14 +20,8 @@
 // the height in the place of the height, and its mean between the two heights as a factor of max(0,
 // D).
 //
-// The boundary is the parts of surfaces where the truth before and after differs: all of the graph
-// of a surface passed in a known order, or none; of two whose ranges overlap, what is on either
-// side of D = 0.
-//
 // LAW column.1  integral(rectangle, quantity) encloses the quantity over the rectangle, in the unit
 //               of the cell's coordinates, which run from -1 to 1.
-// LAW column.2  boundary(rectangle, metric) encloses the measure of what of the surfaces bounds the
-//               set over the rectangle and between bottom and top.
 
 #include <algorithm>
 #include <array>
@@ -40,6 +34,7 @@
 
 #include "exactcsg/csg/flat_tree.hpp"
 #include "exactcsg/csg/membership.hpp"
+#include "exactcsg/measure/positive_part.hpp"
 #include "exactcsg/measure/unit_quadric.hpp"
 
 namespace exactcsg::measure::detail {
@@ -56,60 +51,15 @@ struct Bounds {
   double upper = 0;
 };
 
-// The mean of max(0, d + p u + q v) over -1 <= u, v <= 1. REQUIRES p, q >= 0. Its error is below
-// 2^-44 (|d| + p + q): all terms are positive, and errors in where the pieces meet are squared.
-inline double mean_of_positive_part(double d, double p, double q) {
-  if (p < q) std::swap(p, q);
-  if (d >= p + q) return d;
-  if (d <= -p - q) return 0;
-  // Half the integral over u at one v.
-  const auto inner = [&](double v) {
-    const double m = d + q * v;
-    if (m >= p) return m;
-    return m <= -p ? 0.0 : (m + p) * (m + p) / (4 * p);
-  };
-  // It is a polynomial of degree at most two between these: Simpson's rule is exact.
-  const double first = q > 0 ? std::clamp((-p - d) / q, -1.0, 1.0) : -1.0;
-  const double second = q > 0 ? std::clamp((p - d) / q, -1.0, 1.0) : 1.0;
-  const std::array<double, 4> ends{-1.0, first, second, 1.0};
-  double integral = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double from = ends[i];
-    const double to = ends[i + 1];
-    if (!(from < to)) continue;
-    integral += (to - from) / 6 * (inner(from) + 4 * inner(from / 2 + to / 2) + inner(to));
-  }
-  return integral / 2;
-}
-
-// The share of -1 <= u, v <= 1 in which d + p u + q v > 0. REQUIRES p, q >= 0. Its error is below
-// 2^-44.
-inline double share_of_positive(double d, double p, double q) {
-  if (p < q) std::swap(p, q);
-  if (d >= p + q) return 1;
-  if (d <= -p - q) return 0;
-  if (!(p > 0)) return d > 0 ? 1 : 0;
-  // Of u, at one v: linear between these.
-  const auto share = [&](double v) { return std::clamp(0.5 + (d + q * v) / (2 * p), 0.0, 1.0); };
-  const double first = q > 0 ? std::clamp((-p - d) / q, -1.0, 1.0) : -1.0;
-  const double second = q > 0 ? std::clamp((p - d) / q, -1.0, 1.0) : 1.0;
-  const std::array<double, 4> ends{-1.0, first, second, 1.0};
-  double integral = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    integral += (ends[i + 1] - ends[i]) / 2 * (share(ends[i]) + share(ends[i + 1]));
-  }
-  return integral / 2;
-}
-
 // A height over a rectangle: that of a surface, or a constant.
 struct Height {
   double lower;
   double upper;
   std::optional<Graph> graph;
 
-  LinearModel linear_model() const {
-    if (graph) return graph->linear_model();
-    return {exactly(lower), {}, {}, 0};
+  NearbyPolynomial polynomial() const {
+    if (graph) return graph->polynomial();
+    return {lower, nullptr, 0};
   }
   CertifiedDouble range() const { return between(lower, upper); }
 };
@@ -163,22 +113,6 @@ class Column {
     return sum_over_clusters(r, [&](const Item* first, std::size_t count, Situation& situation) {
       return cluster(first, count, r, situation, quantity);
     });
-  }
-
-  // metric(graph) -> its measure, metric.bound(surface, rectangle) -> one that no part of the
-  // surface over the rectangle exceeds.
-  template <class Metric>
-  CertifiedDouble boundary(const Rectangle& r, const Metric& metric) const {
-    return sum_over_clusters(r, [&](const Item* first, std::size_t count, Situation& situation) {
-      return boundary_in_cluster(first, count, r, situation, metric);
-    });
-  }
-
-  template <class Metric>
-  double boundary_bound(const Rectangle& r, const Metric& metric) const {
-    double sum = 0;
-    for (const UnitSurface& f : surfaces_) sum += metric.bound(f, r);
-    return sum * (1 + 0x1p-40);
   }
 
  private:
@@ -326,31 +260,17 @@ class Column {
     return slabs(first, count, r, situation, quantity);
   }
 
-  // One height less the other, as d + p u + q v with -1 <= u, v <= 1.
-  struct Difference {
-    double d;
-    double p;
-    double q;
-    double error;  // of the whole
-  };
-  static Difference difference(const Height& one, const Height& two, const Rectangle& r) {
-    const LinearModel m1 = one.linear_model();
-    const LinearModel m2 = two.linear_model();
-    const CertifiedDouble d = m1.constant - m2.constant;
-    const CertifiedDouble p = (m1.along_s - m2.along_s) * exactly(r.a);
-    const CertifiedDouble q = (m1.along_t - m2.along_t) * exactly(r.b);
-    const double error = d.error + p.error + q.error + m1.remainder + m2.remainder;
-    return {d.value, std::abs(p.value), std::abs(q.value), error * (1 + 0x1p-48)};
-  }
-
   // The integral of max(0, one - two).
   static CertifiedDouble positive_part(const Height& one, const Height& two, const Rectangle& r) {
-    // The mean grows at most as fast as d, and half as fast as p and as q.
-    const auto [d, p, q, error] = difference(one, two, r);
-    const double rounding = 0x1p-44 * (std::abs(d) + error + p + q) + 0x1p-1000;
-    const double low = mean_of_positive_part(d - error, p, q) - rounding;
-    const double high = mean_of_positive_part(d + error, p, q) + rounding;
-    return between(low, high) * exactly(4) * exactly(r.a) * exactly(r.b);
+    const NearbyPolynomial p = one.polynomial();
+    const NearbyPolynomial q = two.polynomial();
+    Graph::Polynomial difference;
+    if (p.terms != nullptr) difference = *p.terms;
+    if (q.terms != nullptr) difference.subtract(*q.terms);
+    const double d = p.constant - q.constant;
+    const double norms = difference.norm() + (q.terms != nullptr ? 2 * q.terms->norm() : 0);
+    const double error = (p.error + q.error + 0x1p-52 * (std::abs(d) + norms)) * (1 + 0x1p-48);
+    return mean_of_positive_part(d, difference, error) * exactly(4) * exactly(r.a) * exactly(r.b);
   }
 
   template <class Quantity>
@@ -392,53 +312,6 @@ class Column {
     for (const Item* item = first; item != first + count; ++item) {
       situation.of(item->surface) = State::Passed;
     }
-  }
-
-  template <class Metric>
-  CertifiedDouble boundary_in_cluster(const Item* first, std::size_t count, const Rectangle& r,
-                                      Situation& situation, const Metric& metric) const {
-    const auto measure = [&](const Item& item) {
-      return item.surface >= bottom ? CertifiedDouble{} : metric(*item.height.graph, r);
-    };
-    if (count == 1 && first->is_known()) {
-      const int before = definite_truth(situation);
-      situation.of(first->surface) = State::Passed;
-      return before == definite_truth(situation) ? CertifiedDouble{} : measure(*first);
-    }
-    if (count == 2 && first[0].is_known() && first[1].is_known()) {
-      return boundary_of_pair(first[0], first[1], r, situation, measure, metric);
-    }
-    CertifiedDouble sum;
-    for (const Item* item = first; item != first + count; ++item) {
-      if (item->surface < bottom) {
-        sum = sum + up_to(exactly(metric.bound(surfaces_[item->surface], r)));
-      }
-    }
-    pass_all(first, count, situation);
-    return sum;
-  }
-
-  template <class Measure, class Metric>
-  CertifiedDouble boundary_of_pair(const Item& one, const Item& two, const Rectangle& r,
-                                   Situation& situation, Measure&& measure,
-                                   const Metric& metric) const {
-    const PairTruth truth = pass(one, two, situation);
-    const auto [d, p, q, error] = difference(one.height, two.height, r);
-    const double low = std::max(0.0, share_of_positive(d - error, p, q) - 0x1p-44);
-    const double high = std::min(1.0, share_of_positive(d + error, p, q) + 0x1p-44);
-    // Where the first is the higher one, and where the second is.
-    const CertifiedDouble above = between(low, high);
-    const CertifiedDouble below = between(1 - high, 1 - low);
-    const auto part = [&](const Item& item, bool is_boundary_above, bool is_boundary_below) {
-      if (item.surface >= bottom || (!is_boundary_above && !is_boundary_below)) {
-        return CertifiedDouble{};
-      }
-      if (is_boundary_above && is_boundary_below) return measure(item);
-      return metric.density(surfaces_[item.surface], *item.height.graph, r) *
-             (is_boundary_above ? above : below) * exactly(4) * exactly(r.a) * exactly(r.b);
-    };
-    return part(one, truth.only_two != truth.both, truth.none != truth.only_one) +
-           part(two, truth.none != truth.only_two, truth.only_one != truth.both);
   }
 
   std::size_t axis_;

@@ -121,7 +121,6 @@ class MonomialQuantity {
 class MomentMeasure {
  public:
   static constexpr bool is_never_negative = false;
-  static constexpr bool divides_by_trial = false;
 
   MomentMeasure(const Exponents& exponents, const domain::Point<3>& origin)
       : exponents_(exponents), origin_(origin) {}
@@ -163,9 +162,15 @@ class MomentMeasure {
     CertifiedDouble scale_;     // the volume of the cell over that of its own coordinates
     CertifiedDouble greatest_;  // encloses the function's values in the cell
   };
-  InColumn in_column(const Box3& box, const Column& column) const {
-    const auto in_order = factors(box, (column.axis() + 1) % 3);
-    return InColumn(in_order, certified_double_of(Rational(volume_of(box) / 8)), values(in_order));
+  using Part = MeasuredColumn<InColumn>;
+  template <SpatialDomain P>
+  std::vector<Part> parts(const SurfaceTable<P>& table, const LiteralTree& tree,
+                          const Box3& box) const {
+    return measured_column<InColumn>(table, tree, box, [&](const Column& column) {
+      const auto in_order = factors(box, (column.axis() + 1) % 3);
+      return InColumn(in_order, certified_double_of(Rational(volume_of(box) / 8)),
+                      values(in_order));
+    });
   }
 
  private:

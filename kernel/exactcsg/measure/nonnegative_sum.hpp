@@ -24,7 +24,7 @@ template <std::size_t D>
 bool have_nonnegative_sum(const domain::Quadric<D>& f, const domain::Quadric<D>& g,
                           const ApproximatePair& approximate, const domain::Box<D>& box) {
   const auto holds = [&](const Rational& factor) {
-    return domain::range(f + factor * g, box).minimum >= 0;
+    return domain::is_nowhere_negative(f + factor * g, box);
   };
   if (const auto factor = cancelling_factor(approximate.f, approximate.g)) {
     if (holds(simple_fraction(*factor))) return true;

@@ -106,7 +106,7 @@ inline bool exclude_each_other(const domain::HalfSpace<3>& a, const domain::Half
   const auto polynomial = [](const domain::HalfSpace<3>& half_space) {
     return Rational(half_space.is_complement() ? -1 : 1) * half_space.polynomial();
   };
-  return domain::range(polynomial(a) + factor * polynomial(b), box).minimum >= 0;
+  return domain::is_nowhere_negative(polynomial(a) + factor * polynomial(b), box);
 }
 
 inline bool exclude_each_other(const domain::SurfaceHalfSpace& a, const domain::SurfaceHalfSpace& b,
@@ -149,6 +149,7 @@ class RegionProver {
       examine(parts.first, *cell.locals);
       examine(parts.second, *cell.locals);
     }
+    if (!witnesses_.empty()) drop_what_is_witnessed();
     const bool is_complete = cells_.empty();
     Undecided rest{undecided_, {}, stop};
     for (; !cells_.empty(); cells_.pop()) rest.cells.push_back(cells_.top().box);
@@ -245,6 +246,21 @@ class RegionProver {
     const auto surfaces = surfaces_of_all(*local);
     if (surfaces && is_proved(box, *local, *surfaces)) return;
     keep(box, std::move(local));
+  }
+
+  // Of the cells that are left, those whose only violations were found after they were looked at.
+  void drop_what_is_witnessed() {
+    std::priority_queue<Cell> left;
+    undecided_ = 0;
+    for (; !cells_.empty(); cells_.pop()) {
+      const Cell& cell = cells_.top();
+      if (!may_be_violated(cell.locals->regions)) continue;
+      const auto surfaces = surfaces_of_all(*cell.locals);
+      if (surfaces && is_proved(cell.box, *cell.locals, *surfaces)) continue;
+      undecided_ += cell.volume;
+      left.push(cell);
+    }
+    cells_ = std::move(left);
   }
 
   void keep(const Box3& box, std::shared_ptr<const Locals> local) {
@@ -356,6 +372,7 @@ class RegionProver {
         const std::optional<Balance> middle = balance(f, g);
         if (middle && is_in_cell(middle->point)) try_point(global(box, middle->point), local);
         if (known == exclusions_.end()) {
+          try_point_round_axis(key, box);
           const bool excluded = exclude(key, f, g, middle);
           exclusions_.emplace(key, excluded);
           if (excluded) return true;
@@ -392,6 +409,20 @@ class RegionProver {
   }
 
   using PairKey = std::pair<std::uint32_t, std::uint32_t>;
+
+  // Thin lenses all round a torus are met by few cells' centres.
+  void try_point_round_axis(const PairKey& key, const Box3& box) {
+    if constexpr (std::convertible_to<P, domain::SurfaceHalfSpace>) {
+      const auto point = point_round_axis(inside(key.first), inside(key.second), box.centre());
+      if (point && is_inside(box_, *point)) try_point(*point, locals_of_box_);
+    }
+  }
+  static bool is_inside(const Box3& box, const domain::Point<3>& point) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (point[i] <= box.lower()[i] || point[i] >= box.upper()[i]) return false;
+    }
+    return true;
+  }
 
   bool exclude(const PairKey& key, const ApproximateQuadric& f, const ApproximateQuadric& g,
                const std::optional<Balance>& middle) const {
@@ -434,6 +465,29 @@ class RegionProver {
     }
     const Position x = pushed_inside(negative);
     if (is_in_cell(x)) try_point(global(box, x), local);
+    for (std::size_t i = 0; i < polynomials.size(); ++i) {
+      const Position low = low_point(polynomials[i], !is_negative(sides, i));
+      if (!all_negative(polynomials, sides, low)) continue;
+      // Away from the walls, as far as it goes.
+      for (double away = 0x1p-3; away > 0x1p-45; away *= 0x1p-3) {
+        Position inside = low;
+        for (double& coordinate : inside) coordinate *= 1 - away;
+        if (!all_negative(polynomials, sides, inside)) continue;
+        try_point(global(box, inside), local);
+        break;
+      }
+    }
+  }
+  static bool is_negative(Sides sides, std::size_t i) { return (sides >> i & 1U) != 0; }
+  // As far as doubles tell.
+  static bool all_negative(const std::vector<UnitSurface>& polynomials, Sides sides,
+                           const Position& x) {
+    const UnitSurface::Vector at{exactly(x[0]), exactly(x[1]), exactly(x[2])};
+    for (std::size_t i = 0; i < polynomials.size(); ++i) {
+      const double value = polynomials[i](at).value;
+      if (!((is_negative(sides, i) ? value : -value) < 0)) return false;
+    }
+    return true;
   }
 
   // Records the point if it is a violation of a new kind.

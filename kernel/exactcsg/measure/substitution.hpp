@@ -15,17 +15,16 @@
 namespace exactcsg::measure::detail {
 
 // Without the Empty and Full that the function yields.
-template <class P, class F>
-domain::Solid3 substituted(const csg::BooleanTree<P>& tree, F&& function) {
-  using domain::Solid3;
-  return csg::simplify(csg::detail::rebuild<Solid3>(
+template <class Result = domain::Solid3, class P, class F>
+Result substituted(const csg::BooleanTree<P>& tree, F&& function) {
+  return csg::simplify(csg::detail::rebuild<Result>(
       tree,
       [&](auto node) {
-        if (node.kind() == csg::NodeKind::Primitive) return Solid3(function(node.primitive()));
-        return node.kind() == csg::NodeKind::Full ? Solid3::full() : Solid3::empty();
+        if (node.kind() == csg::NodeKind::Primitive) return Result(function(node.primitive()));
+        return node.kind() == csg::NodeKind::Full ? Result::full() : Result::empty();
       },
-      [](auto node, std::span<Solid3> operands) {
-        return Solid3::compose_from(node.operation(), operands);
+      [](auto node, std::span<Result> operands) {
+        return Result::compose_from(node.operation(), operands);
       }));
 }
 

@@ -90,10 +90,11 @@ inline CertifiedDouble root_of_at_least_one(const CertifiedDouble& x) {
   const double middle = low / 2 + high / 2;
   return {middle, (high - middle) * (1 + 0x1p-48) + middle * 0x1p-50};
 }
-// REQUIRES the function is at least 1 where the coefficients are taken.
-inline Series root(const Series& a, std::size_t degree) {
+// root_of_constant: that of the constant coefficient.
+// REQUIRES the function is positive where the coefficients are taken.
+inline Series root(const Series& a, const CertifiedDouble& root_of_constant, std::size_t degree) {
   Series result{};
-  result[0][0] = root_of_at_least_one(a[0][0]);
+  result[0][0] = root_of_constant;
   const CertifiedDouble twice = exactly(2) * result[0][0];
   for_each_term(degree, [&](std::size_t i, std::size_t j) {
     if (i + j == 0) return;

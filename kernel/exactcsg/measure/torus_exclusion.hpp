@@ -64,24 +64,75 @@ inline ApproximateQuadric approximate_quadric(const domain::Quadric<2>& f) {
   return ApproximateQuadric(UnitSurface(result), false);
 }
 
+// Two half-spaces, one of them a torus's, seen from its axis; nullopt if that cannot be done.
+struct ViewFromAxis {
+  domain::TorusFrame frame;
+  domain::Quadric<2> f;
+  domain::Quadric<2> g;
+  domain::Coordinates<3> downhill;  // where the second is least, if it is not the same all round
+
+  static std::optional<ViewFromAxis> of(const domain::SurfaceHalfSpace& a,
+                                        const domain::SurfaceHalfSpace& b) {
+    const bool is_first = a.torus() != nullptr;
+    if (!is_first && b.torus() == nullptr) return std::nullopt;
+    const domain::SurfaceHalfSpace& other = is_first ? b : a;
+    domain::TorusFrame frame(*(is_first ? a : b).torus());
+    const auto bound = [&](const auto& kind) { return lower_bound(frame, kind); };
+    auto f = (is_first ? a : b).visit(bound);
+    auto g = other.visit(bound);
+    if (!f || !g) return std::nullopt;
+    domain::Coordinates<3> downhill;
+    if (other.quadric() != nullptr) {
+      const Rational sign = other.quadric()->is_complement() ? 1 : -1;
+      downhill = frame.uphill(sign * other.quadric()->polynomial());
+    }
+    return ViewFromAxis{std::move(frame), std::move(*f), std::move(*g), std::move(downhill)};
+  }
+};
+
 // Their interiors have no common point in the box. False if that is not seen, or neither is a
 // torus.
 inline bool exclude_round_axis(const domain::SurfaceHalfSpace& a, const domain::SurfaceHalfSpace& b,
                                const domain::Box<3>& box) {
-  const domain::Torus* torus = a.torus() != nullptr ? a.torus() : b.torus();
-  if (torus == nullptr) return false;
-  const domain::TorusFrame frame(*torus);
-  const auto bound = [&](const auto& kind) { return lower_bound(frame, kind); };
-  const auto f = a.visit(bound);
-  const auto g = b.visit(bound);
-  if (!f || !g) return false;
-  const domain::Range along = domain::range(domain::Quadric<3>(frame.along()), box);
-  const Rational squared_radius = domain::range(torus->radicand(), box).maximum / 4;
+  const std::optional<ViewFromAxis> view = ViewFromAxis::of(a, b);
+  if (!view) return false;
+  const domain::Torus& torus = a.torus() != nullptr ? *a.torus() : *b.torus();
+  const domain::Range along = domain::range(domain::Quadric<3>(view->frame.along()), box);
+  const Rational squared_radius = domain::range(torus.radicand(), box).maximum / 4;
   const domain::Box<2> rectangle(
       domain::Point<2>(0, along.minimum),
       domain::Point<2>(root_bounds(squared_radius).upper, along.maximum));
-  return have_nonnegative_sum(*f, *g, {approximate_quadric(*f), approximate_quadric(*g)},
-                              rectangle);
+  return have_nonnegative_sum(
+      view->f, view->g, {approximate_quadric(view->f), approximate_quadric(view->g)}, rectangle);
+}
+
+// A point at which both are negative, perhaps: in the middle of the lens that they have in common,
+// seen from the axis; if it is the same all round, on the side of `towards`. [Approximate]
+inline std::optional<domain::Point<3>> point_round_axis(const domain::SurfaceHalfSpace& a,
+                                                        const domain::SurfaceHalfSpace& b,
+                                                        const domain::Point<3>& towards) {
+  const std::optional<ViewFromAxis> view = ViewFromAxis::of(a, b);
+  if (!view) return std::nullopt;
+  const auto middle = balance(approximate_quadric(view->f), approximate_quadric(view->g));
+  if (!middle || !(middle->point[0] > 0 && middle->point[0] < 0x1p60) ||
+      !(std::abs(middle->point[1]) < 0x1p60)) {
+    return std::nullopt;
+  }
+  const Rational w = rational_of(middle->point[1]);
+  const domain::Coordinates<3> from = view->frame.on_axis(w);
+  domain::Coordinates<3> direction = view->downhill;
+  double length = std::sqrt(nearest_double(view->frame.squared_distance(direction)));
+  if (!(length > 0)) {
+    const Rational height = view->frame.along()(towards.coordinates());
+    const domain::Coordinates<3> foot = view->frame.on_axis(height);
+    for (std::size_t i = 0; i < 3; ++i) direction[i] = towards[i] - foot[i];
+    length = std::sqrt(nearest_double(view->frame.squared_distance(direction)));
+  }
+  const double factor = middle->point[0] / length;
+  if (!(factor < 0x1p60)) return std::nullopt;
+  domain::Coordinates<3> result = from;
+  for (std::size_t i = 0; i < 3; ++i) result[i] += rational_of(factor) * direction[i];
+  return domain::Point<3>(result);
 }
 
 }  // namespace exactcsg::measure::detail

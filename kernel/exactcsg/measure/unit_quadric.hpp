@@ -12,10 +12,14 @@
 //                     errors of the coordinates.
 // LAW graph.1  if a graph is found over a rectangle, f has exactly one zero Z(s, t) with
 //              lower < Z < upper over each of its points, df/du > 0 there, and Z is analytic.
-// LAW graph.2  integral encloses that of Z; the error falls as the eighth power of the rectangle's
-//              size. linear_model encloses Z by a linear function and a remainder.
+// LAW graph.2  integral encloses that of Z; the error falls as the eleventh power of the
+// rectangle's
+//              size. polynomial encloses Z by a function and a remainder.
+// LAW graph.3  the series enclose Z's Taylor coefficients at the rectangle's centre, and at all of
+//              its points.
 //
-// Taylor's formula: with x0 on the surface, 0 = f(x0 + d) = f'(x0) d + d'Ad is solved for the
+// A graph is found by its polynomial (implicit_polynomial.hpp). The series are intervals. Taylor's
+// formula: with x0 on the surface, 0 = f(x0 + d) = f'(x0) d + d'Ad is solved for the
 // power series of d's last component, coefficient by coefficient. At the centre of the rectangle
 // this gives the polynomial; over the whole rectangle, in intervals, Lagrange's remainder. Of a
 // torus, f = b - w with w^2 = r, the zeros are those of b^2 - r: with b = w = w0 + e there, e = b'd
@@ -30,6 +34,7 @@
 #include <utility>
 
 #include "exactcsg/domain/quadric.hpp"
+#include "exactcsg/measure/implicit_polynomial.hpp"
 #include "exactcsg/measure/taylor_series.hpp"
 #include "exactcsg/number/certified_root.hpp"
 
@@ -67,6 +72,22 @@ struct UnitQuadric {
       reach += slope * x[i].error;
     }
     return widened((*this)(middle), reach * (1 + 0x1p-48));
+  }
+  // Taylor coefficients of f(s, t, height(s, t)) at the points (s, t) = at.
+  Series on_graph(const std::array<CertifiedDouble, 2>& at, const Series& height,
+                  std::size_t degree) const {
+    const std::array<Series, 3> x{coordinate_series(0, at[0]), coordinate_series(1, at[1]), height};
+    Series result = constant_series(constant);
+    for (std::size_t i = 0; i < 3; ++i) {
+      Series factor = constant_series(linear[i]);
+      for (std::size_t j = i; j < 3; ++j) {
+        if (is_zero(square[i][j])) continue;
+        const CertifiedDouble weight = j == i ? square[i][j] : exactly(2) * square[i][j];
+        factor = sum(factor, scaled(weight, x[j], degree), degree);
+      }
+      result = sum(result, product(x[i], factor, degree), degree);
+    }
+    return result;
   }
   // On the whole cell.
   CertifiedDouble derivative_in_cell(std::size_t axis) const {
@@ -199,6 +220,30 @@ class UnitSurface {
     }
     return widened(base_(centre) + exactly(sign_) * root, reach * (1 + 0x1p-48));
   }
+  // The same as the value at x, but tighter where the errors of x are large.
+  CertifiedDouble range_near(const Vector& x) const {
+    if (!radicand_) return base_.range_near(x);
+    const Vector middle = middle_of(x);
+    const RootTerms terms(*radicand_, x);
+    const CertifiedDouble root_in_middle = square_root((*radicand_)(middle));
+    double reach = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const CertifiedDouble slope = derivative_of_torus(i, middle, root_in_middle);
+      reach += magnitude(spread(slope, i, terms, x)) * x[i].error;
+    }
+    return widened(base_(middle) + exactly(sign_) * root_in_middle, reach * (1 + 0x1p-48));
+  }
+  // Taylor coefficients of f(s, t, height(s, t)) at the points (s, t) = at. `near`: all of the
+  // graph's points there, if that is more than one.
+  Series on_graph(const std::array<CertifiedDouble, 2>& at, const Series& height,
+                  const Vector* near, std::size_t degree) const {
+    Series result = base_.on_graph(at, height, degree);
+    if (!radicand_) return result;
+    Series radicand = radicand_->on_graph(at, height, degree);
+    if (near != nullptr) radicand[0][0] = radicand_->range_near(*near);
+    const Series root = detail::root(radicand, square_root(radicand[0][0]), degree);
+    return sum(result, scaled(exactly(sign_), root, degree), degree);
+  }
   UnitSurface operator-() const {
     UnitSurface result = *this;
     result.base_ = -base_;
@@ -280,67 +325,73 @@ class UnitSurface {
   double sign_ = -1;
 };
 
-// c0 + p (s - centre) + q (t - centre), and how far off that is.
-struct LinearModel {
-  CertifiedDouble constant;
-  CertifiedDouble along_s;
-  CertifiedDouble along_t;
-  double remainder = 0;
+constexpr std::size_t graph_degree = 8;
+
+// constant + terms, in the rectangle's own coordinates, and how far off that is.
+struct NearbyPolynomial {
+  double constant;
+  const PartedPolynomial<graph_degree>* terms;  // null: none
+  double error;
 };
 
 // The height of the surface over a rectangle.
 class Graph {
  public:
-  double lower() const { return lower_; }
-  double upper() const { return upper_; }
+  using Polynomial = PartedPolynomial<graph_degree>;
+
+  double lower() const { return middle_ - reach_; }
+  double upper() const { return middle_ + reach_; }
 
   // nullopt if no graph is recognised, which need not mean that there is none.
   // REQUIRES the partial derivative by the height is positive where the graph is sought.
   static std::optional<Graph> find(const UnitSurface& f, const Rectangle& r) {
     const double middle = approximate_zero(f, r);
     if (!(std::abs(middle) < 8)) return std::nullopt;
-    const UnitSurface::Vector centre{exactly(r.s), exactly(r.t), exactly(middle)};
-    const double slope = f.derivative(2, centre).value;
-    if (!(slope > 0)) return std::nullopt;
-    const double first = std::abs(f.derivative(0, centre).value) * r.a +
-                         std::abs(f.derivative(1, centre).value) * r.b;
-    const auto curvature = [&](std::size_t i, std::size_t j) {
-      return std::abs(f.half_second_derivative(i, j, centre).value);
-    };
-    const double second =
-        curvature(0, 0) * r.a * r.a + 2 * curvature(0, 1) * r.a * r.b + curvature(1, 1) * r.b * r.b;
-    double reach = (first + second) / slope * 1.0625 + 0x1p-44;
-    for (int attempt = 0; attempt < 4; ++attempt, reach *= 1.5) {
-      if (!(reach < 8)) break;
-      Graph graph(f, r, middle, reach);
-      if (graph.is_proved()) return graph;
+    const LocalQuadric base(f.base(), r, middle);
+    const Implicit implicit = f.radicand()
+                                  ? Implicit(base, LocalQuadric(*f.radicand(), r, middle), f.sign())
+                                  : Implicit(base);
+    const double norm = implicit.norm() * (1 + 0x1p-48);
+    double reach = 1.0625 * norm + 0x1p-44;
+    for (int attempt = 0; attempt < 2 && reach < 8; ++attempt) {
+      const CertifiedDouble slope =
+          f.radicand() ? f.derivative(2, points_within(r, middle, reach)) : base.slope(reach);
+      const double least = slope.value * (1 - 0x1p-50) - slope.error;
+      if (!(least > 0)) break;
+      const double error = implicit.residual(reach) / least * (1 + 0x1p-50);
+      if (norm + error <= reach) return Graph(f, r, middle, implicit.polynomial(), error);
+      reach = 1.0625 * (norm + error);
     }
     return std::nullopt;
   }
 
   CertifiedDouble integral() const {
-    return detail::integral(rectangle_, series_at_centre(order - 1), series_anywhere(), order);
+    double mean = 0;
+    for (std::size_t n = 2; n <= graph_degree; n += 2) {
+      for (std::size_t i = 0; i <= n; i += 2) {
+        mean += terms_[n][i] / static_cast<double>((i + 1) * (n - i + 1));
+      }
+    }
+    return (exactly(middle_) + widened({mean, error_}, 0x1p-47 * terms_.norm())) * exactly(4) *
+           exactly(rectangle_.a) * exactly(rectangle_.b);
   }
   // Of the height, in s and t relative to the points.
   Series series_at_centre(std::size_t degree) const { return series(centre_point(), degree); }
   Series series_anywhere(std::size_t degree = order) const { return series(all_points(), degree); }
 
-  LinearModel linear_model() const {
-    const Series at_centre = series_at_centre(1);
-    const Series anywhere = series_anywhere(2);
-    const double a = rectangle_.a;
-    const double b = rectangle_.b;
-    const double remainder = magnitude(anywhere[2][0]) * a * a + magnitude(anywhere[1][1]) * a * b +
-                             magnitude(anywhere[0][2]) * b * b;
-    return {at_centre[0][0], at_centre[1][0], at_centre[0][1], remainder * (1 + 0x1p-48)};
-  }
+  NearbyPolynomial polynomial() const { return {middle_, &terms_, error_}; }
 
  private:
   static constexpr std::size_t order = series_order;
   static constexpr int most_steps = 6;
+  using Implicit = ImplicitPolynomial<graph_degree>;
 
-  Graph(const UnitSurface& f, const Rectangle& r, double middle, double reach)
-      : f_(&f), rectangle_(r), middle_(middle), lower_(middle - reach), upper_(middle + reach) {}
+  // The height is within `error` of middle + terms.
+  Graph(const UnitSurface& f, const Rectangle& r, double middle, const Polynomial& terms,
+        double error)
+      : f_(&f), rectangle_(r), middle_(middle), terms_(terms), error_(error) {
+    reach_ = (terms.norm() + error) * (1 + 0x1p-47) + 0x1p-48;
+  }
 
   static double approximate_zero(const UnitSurface& f, const Rectangle& r) {
     double height = 0;
@@ -358,19 +409,10 @@ class Graph {
     return height;
   }
 
-  bool is_proved() const {
-    return is_positive(f_->derivative(2, all_points())) &&
-           is_negative(f_->range_at(rectangle_, lower_)) &&
-           is_positive(f_->range_at(rectangle_, upper_));
+  static UnitSurface::Vector points_within(const Rectangle& r, double height, double reach) {
+    return {CertifiedDouble{r.s, r.a}, CertifiedDouble{r.t, r.b}, CertifiedDouble{height, reach}};
   }
-
-  double half_height() const {
-    return std::max(upper_ - middle_, middle_ - lower_) * (1 + 0x1p-50) + 0x1p-1000;
-  }
-  UnitSurface::Vector all_points() const {
-    return {CertifiedDouble{rectangle_.s, rectangle_.a},
-            CertifiedDouble{rectangle_.t, rectangle_.b}, CertifiedDouble{middle_, half_height()}};
-  }
+  UnitSurface::Vector all_points() const { return points_within(rectangle_, middle_, reach_); }
   UnitSurface::Vector centre_point() const {
     const UnitSurface::Vector guess{exactly(rectangle_.s), exactly(rectangle_.t), exactly(middle_)};
     // Between the guess and the zero, the derivative is one of those of the whole graph.
@@ -468,8 +510,9 @@ class Graph {
   const UnitSurface* f_;
   Rectangle rectangle_;
   double middle_;
-  double lower_;
-  double upper_;
+  double reach_ = 0;
+  Polynomial terms_;
+  double error_;
 };
 
 }  // namespace exactcsg::measure::detail

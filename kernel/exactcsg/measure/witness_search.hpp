@@ -186,6 +186,24 @@ inline Position pushed_inside(std::span<const ApproximateQuadric> polynomials) {
   return x;
 }
 
+// Where a function is least in the closed cell, perhaps: from the centre, by steps along the axes.
+// What reaches the cell in a thin lens across one of its walls is found there.
+inline Position low_point(const UnitSurface& f, bool is_negated) {
+  constexpr int sweeps = 4;
+  const double sign = is_negated ? -1 : 1;
+  Position x{};
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const UnitSurface::Vector at{exactly(x[0]), exactly(x[1]), exactly(x[2])};
+      const double slope = sign * f.derivative(i, at).value;
+      const double curvature = sign * f.half_second_derivative(i, i, at).value;
+      const double step = curvature > 0 ? -slope / (2 * curvature) : slope > 0 ? -2 : 2;
+      x[i] = std::clamp(x[i] + step, -1.0, 1.0);
+    }
+  }
+  return x;
+}
+
 // The fraction with the least denominator within a relative 2^-26 of the value, which is positive.
 inline Rational simple_fraction(double value) {
   Integer p0 = 0;

@@ -18,8 +18,10 @@ void set_scaled(Integer& result, const Rational& value, const Integer& denominat
     result = value.get_num();
     return;
   }
-  mpz_divexact(result.get_mpz_t(), denominator.get_mpz_t(), value.get_den_mpz_t());
-  mpz_mul(result.get_mpz_t(), result.get_mpz_t(), value.get_num_mpz_t());
+  // The product is put where it belongs: it would have to be moved to make room in place.
+  thread_local Integer factor;
+  mpz_divexact(factor.get_mpz_t(), denominator.get_mpz_t(), value.get_den_mpz_t());
+  mpz_mul(result.get_mpz_t(), value.get_num_mpz_t(), factor.get_mpz_t());
 }
 
 std::optional<Integer> short_common_denominator(std::span<const Point3> points) {

@@ -9,6 +9,38 @@
 
 namespace exactcsg {
 
+namespace {
+
+struct PointPair {
+  PointId first;
+  PointId second;
+};
+
+// Two input points on both planes, if that is known: the ends of an edge that facets share.
+std::optional<PointPair> common_points(const Geometry::Data& data, PlaneRef p, PlaneRef q) {
+  if (p.is_wall() || q.is_wall()) return std::nullopt;
+  auto points = data.points_of_planes.row(p.table_index());
+  const auto other_points = data.points_of_planes.row(q.table_index());
+  std::uint32_t other = q.table_index();
+  if (other_points.size() < points.size()) {
+    points = other_points;
+    other = p.table_index();
+  }
+  // Longer rows are not worth the search.
+  constexpr std::size_t some = 64;
+  std::optional<PointId> first;
+  for (const std::uint32_t candidate : points.first(std::min(some, points.size()))) {
+    const PointId point{candidate};
+    const auto planes = data.planes_through(point);
+    if (std::find(planes.begin(), planes.end(), other) == planes.end()) continue;
+    if (first) return PointPair{*first, point};
+    first = point;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Geometry::Geometry(std::unique_ptr<Data> data)
     : data_(std::move(data)), approximate_(data_->planes.approximate()) {}
 Geometry::~Geometry() = default;
@@ -37,6 +69,14 @@ const Point3& Geometry::point(PointId id) const { return data_->points.exact(id)
 
 Point3 Geometry::exact_point(const Vertex& v) const {
   if (v.is_point) return point(v.point);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlaneRef plane = v.planes[i];
+    if (plane.is_wall()) continue;
+    if (const auto line = common_points(*data_, v.planes[(i + 1) % 3], v.planes[(i + 2) % 3])) {
+      return meeting_point_of_line(data_->homogeneous(line->first),
+                                   data_->homogeneous(line->second), exact_plane(plane));
+    }
+  }
   const auto [p, q, r] = data_->operands(v);
   return point_of(meeting_point(load<Integer>(p), load<Integer>(q), load<Integer>(r)));
 }

@@ -179,6 +179,10 @@ class Geometry::Builder {
 
   // Equal points get equal ids. COST: amortised O(1) hash of the exact value.
   PointId add_point(const Point3& point);
+  // The same of points that `owner` keeps alive, as the Geometry will keep the owner: they are not
+  // copied.
+  void add_owner(std::shared_ptr<const void> owner);
+  PointId add_owned_point(const Point3& point);
   const Point3& point(PointId id) const;
   Vertex vertex(PointId id) const;
   // The plane through three points, counter-clockwise from outside. Lazy: nothing exact is computed

@@ -16,6 +16,7 @@ struct Incidence {
 }  // namespace
 
 struct Geometry::Builder::State {
+  std::vector<std::shared_ptr<const void>> owners;
   PointTable points;
   AddedPlanes planes;
   std::vector<Incidence> incidences;
@@ -76,6 +77,14 @@ Geometry::Builder::~Builder() = default;
 
 PointId Geometry::Builder::add_point(const Point3& point) { return state_->points.intern(point); }
 
+void Geometry::Builder::add_owner(std::shared_ptr<const void> owner) {
+  state_->owners.push_back(std::move(owner));
+}
+
+PointId Geometry::Builder::add_owned_point(const Point3& point) {
+  return state_->points.intern_lasting(point);
+}
+
 const Point3& Geometry::Builder::point(PointId id) const { return state_->points.exact(id); }
 
 Vertex Geometry::Builder::vertex(PointId id) const { return state_->points.vertex(id); }
@@ -108,6 +117,7 @@ Geometry Geometry::Builder::build() && {
   }
   data->planes = PlaneTable(state.planes, firsts);
   data->points = std::move(state.points);
+  data->owners = std::move(state.owners);
   data->homogeneous_points = LazyTable<Homogeneous<Integer>>(data->points.size());
   fill_incidences(state.incidences, *data);
   state_.reset();

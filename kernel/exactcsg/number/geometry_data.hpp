@@ -3,6 +3,7 @@
 
 // What a Geometry owns. Private to number/.
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct SparseTable {
 };
 
 struct Geometry::Data {
+  std::vector<std::shared_ptr<const void>> owners;  // of points
   PointTable points;
   PlaneTable planes;
   std::vector<OrientedPlaneRef> of_added;

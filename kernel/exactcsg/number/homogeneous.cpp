@@ -42,16 +42,17 @@ void set_common_w(PlaneScratch& s, const Homogeneous<Integer>& p, const Homogene
   }
 }
 
-void scale_to_common_w(PlaneScratch& s, const Homogeneous<Integer>& point,
-                       std::array<Integer, 3>& result) {
+// `factor` is overwritten.
+void scale_to_common_w(const Integer& common_w, const Homogeneous<Integer>& point,
+                       std::array<Integer, 3>& result, Integer& factor) {
   const auto from = coordinates_of(point);
-  if (point.w == s.common_w) {
+  if (point.w == common_w) {
     for (std::size_t i = 0; i < 3; ++i) result[i] = *from[i];
     return;
   }
-  mpz_divexact(s.factor.get_mpz_t(), s.common_w.get_mpz_t(), point.w.get_mpz_t());
+  mpz_divexact(factor.get_mpz_t(), common_w.get_mpz_t(), point.w.get_mpz_t());
   for (std::size_t i = 0; i < 3; ++i) {
-    mpz_mul(result[i].get_mpz_t(), from[i]->get_mpz_t(), s.factor.get_mpz_t());
+    mpz_mul(result[i].get_mpz_t(), from[i]->get_mpz_t(), factor.get_mpz_t());
   }
 }
 
@@ -70,6 +71,55 @@ void make_normal_coprime(PlaneScratch& s) {
   }
   if (s.factor == 1) return;
   for (Integer& c : s.normal) mpz_divexact(c.get_mpz_t(), c.get_mpz_t(), s.factor.get_mpz_t());
+}
+
+// What meeting_point_of_line computes with.
+struct LineScratch {
+  Integer common_w;
+  Integer common_factor;
+  std::array<Integer, 3> p;          // over common_w
+  std::array<Integer, 3> direction;  // a multiple of q - p
+  Integer at_p;                      // the plane's value at p, times common_w
+  Integer slope;                     // the same of the direction
+  Integer numerator;
+  Integer denominator;
+};
+
+void divide_exactly(Integer& value, const Integer& divisor) {
+  if (divisor != 1) mpz_divexact(value.get_mpz_t(), value.get_mpz_t(), divisor.get_mpz_t());
+}
+
+void set_dot(Integer& result, const std::array<const Integer*, 3>& normal,
+             const std::array<Integer, 3>& vector) {
+  mpz_mul(result.get_mpz_t(), normal[0]->get_mpz_t(), vector[0].get_mpz_t());
+  mpz_addmul(result.get_mpz_t(), normal[1]->get_mpz_t(), vector[1].get_mpz_t());
+  mpz_addmul(result.get_mpz_t(), normal[2]->get_mpz_t(), vector[2].get_mpz_t());
+}
+
+// p_i / w - at_p d_i / (slope w), where at_p and slope have no common factor and slope > 0. In
+// lowest terms: the common factor of the numerator slope p_i - at_p d_i and of slope is that of d_i
+// and slope; what is left of slope has none with what is left of the numerator, which may have one
+// with w. So every common divisor sought is that of a short number and another.
+Rational coordinate_of_line(LineScratch& s, std::size_t i) {
+  Integer& x = s.numerator;
+  Integer& w = s.denominator;
+  Integer& factor = s.common_factor;
+  mpz_mul(x.get_mpz_t(), s.slope.get_mpz_t(), s.p[i].get_mpz_t());
+  mpz_submul(x.get_mpz_t(), s.at_p.get_mpz_t(), s.direction[i].get_mpz_t());
+  mpz_gcd(factor.get_mpz_t(), s.slope.get_mpz_t(), s.direction[i].get_mpz_t());
+  divide_exactly(x, factor);
+  w = s.slope;
+  divide_exactly(w, factor);
+  mpz_gcd(factor.get_mpz_t(), x.get_mpz_t(), s.common_w.get_mpz_t());
+  divide_exactly(x, factor);
+  mpz_divexact(factor.get_mpz_t(), s.common_w.get_mpz_t(), factor.get_mpz_t());
+  w *= factor;
+  Rational result;
+  result.get_num() = x;
+  // Allocated anew, which is faster than made longer.
+  mpz_clear(result.get_den_mpz_t());
+  mpz_init_set(result.get_den_mpz_t(), w.get_mpz_t());
+  return result;
 }
 
 }  // namespace
@@ -97,9 +147,9 @@ Plane plane_through(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q
                     const Homogeneous<Integer>& r) {
   thread_local PlaneScratch s;
   set_common_w(s, p, q, r);
-  scale_to_common_w(s, p, s.p);
-  scale_to_common_w(s, q, s.u);
-  scale_to_common_w(s, r, s.v);
+  scale_to_common_w(s.common_w, p, s.p, s.factor);
+  scale_to_common_w(s.common_w, q, s.u, s.factor);
+  scale_to_common_w(s.common_w, r, s.v, s.factor);
   for (std::size_t i = 0; i < 3; ++i) {
     s.u[i] -= s.p[i];
     s.v[i] -= s.p[i];
@@ -126,6 +176,26 @@ Plane plane_through(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q
     for (Integer& c : s.normal) c *= s.common_w;
   }
   return {s.normal[0], s.normal[1], s.normal[2], s.offset};
+}
+
+Point3 meeting_point_of_line(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q,
+                             const Plane& plane) {
+  thread_local LineScratch s;
+  s.common_w = p.w;
+  make_multiple(s.common_w, q.w);
+  scale_to_common_w(s.common_w, p, s.p, s.common_factor);
+  scale_to_common_w(s.common_w, q, s.direction, s.common_factor);
+  for (std::size_t i = 0; i < 3; ++i) s.direction[i] -= s.p[i];
+  halve_while_even(s.direction);
+  const std::array<const Integer*, 3> normal{&plane.a, &plane.b, &plane.c};
+  set_dot(s.slope, normal, s.direction);
+  set_dot(s.at_p, normal, s.p);
+  mpz_addmul(s.at_p.get_mpz_t(), plane.d.get_mpz_t(), s.common_w.get_mpz_t());
+  mpz_gcd(s.common_factor.get_mpz_t(), s.at_p.get_mpz_t(), s.slope.get_mpz_t());
+  if (s.slope < 0) s.common_factor = -s.common_factor;
+  divide_exactly(s.at_p, s.common_factor);
+  divide_exactly(s.slope, s.common_factor);
+  return {coordinate_of_line(s, 0), coordinate_of_line(s, 1), coordinate_of_line(s, 2)};
 }
 
 PlaneOperand operand_of(const Plane& plane) {

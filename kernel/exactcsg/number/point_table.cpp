@@ -65,20 +65,31 @@ ApproximatePoint approximate(const Point3& point) {
 }
 
 PointId PointTable::intern(const Point3& point) {
+  const auto [id, is_new] = find_or_add(point);
+  if (is_new) points_.push_back(&copies_.emplace_back(point));
+  return id;
+}
+
+PointId PointTable::intern_lasting(const Point3& point) {
+  const auto [id, is_new] = find_or_add(point);
+  if (is_new) points_.push_back(&point);
+  return id;
+}
+
+std::pair<PointId, bool> PointTable::find_or_add(const Point3& point) {
   if (points_.size() * 2 >= slots_.size()) enlarge_slots();
   const std::uint64_t hash = hash_of(point);
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = hash & mask;
   for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
     const std::uint32_t id = slots_[slot] - 1;
-    if (hashes_[id] == hash && points_[id] == point) return PointId{id};
+    if (hashes_[id] == hash && *points_[id] == point) return {PointId{id}, false};
   }
   const auto id = static_cast<std::uint32_t>(points_.size());
   slots_[slot] = id + 1;
   hashes_.push_back(hash);
   approximate_.push_back(exactcsg::approximate(point));
-  points_.push_back(point);
-  return PointId{id};
+  return {PointId{id}, true};
 }
 
 Vertex PointTable::vertex(PointId id) const {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "exactcsg/number/geometry.hpp"
@@ -29,18 +30,23 @@ class PointTable {
  public:
   // The id of the point of this value, a new one if there is none. COST: amortised O(1)
   PointId intern(const Point3& point);
+  // The same without a copy. REQUIRES the point lasts as long as the table.
+  PointId intern_lasting(const Point3& point);
 
   std::size_t size() const { return points_.size(); }
-  const Point3& exact(PointId id) const { return points_[static_cast<std::size_t>(id)]; }
+  const Point3& exact(PointId id) const { return *points_[static_cast<std::size_t>(id)]; }
   const ApproximatePoint& approximate(PointId id) const {
     return approximate_[static_cast<std::size_t>(id)];
   }
   Vertex vertex(PointId id) const;
 
  private:
+  // Returns the id, and whether it is a new one, whose point is still to be set.
+  std::pair<PointId, bool> find_or_add(const Point3& point);
   void enlarge_slots();
 
-  std::deque<Point3> points_;  // a deque: references stay valid while points are added
+  std::vector<const Point3*> points_;
+  std::deque<Point3> copies_;  // a deque: references stay valid while points are added
   std::vector<ApproximatePoint> approximate_;
   std::vector<std::uint64_t> hashes_;
   std::vector<std::uint32_t> slots_;  // open addressing: 0 free, else id + 1

@@ -41,6 +41,8 @@ class BoxHierarchy {
   explicit BoxHierarchy(std::span<const DoubleBox> boxes) : boxes_(boxes), order_(boxes.size()) {
     std::iota(order_.begin(), order_.end(), 0U);
     if (!boxes.empty()) build(0, static_cast<std::uint32_t>(boxes.size()));
+    ordered_.reserve(boxes.size());
+    for (const std::uint32_t i : order_) ordered_.push_back(boxes[i]);
   }
 
   // visit(i, j) once for each pair of different boxes that meet.
@@ -88,7 +90,7 @@ class BoxHierarchy {
         continue;
       }
       for (std::uint32_t k = n.begin; k < n.end; ++k) {
-        if (meet(boxes_[order_[k]], query)) visit(order_[k]);
+        if (meet(ordered_[k], query)) visit(order_[k]);
       }
     }
   }
@@ -131,13 +133,14 @@ class BoxHierarchy {
   void visit_leaves(const Node& m, const Node& n, bool same, Visit& visit) const {
     for (std::uint32_t i = m.begin; i < m.end; ++i) {
       for (std::uint32_t j = same ? i + 1 : n.begin; j < n.end; ++j) {
-        if (meet(boxes_[order_[i]], boxes_[order_[j]])) visit(order_[i], order_[j]);
+        if (meet(ordered_[i], ordered_[j])) visit(order_[i], order_[j]);
       }
     }
   }
 
   std::span<const DoubleBox> boxes_;
   std::vector<std::uint32_t> order_;
+  std::vector<DoubleBox> ordered_;  // the boxes of a node lie side by side
   std::vector<Node> nodes_;
 };
 

@@ -67,6 +67,7 @@ struct Position {
   VertexNumber number = 0;
   std::array<double, 3> approximate{};  // nearest
   const Point3* exact = nullptr;
+  std::size_t computed = 0;  // of a meeting point: its place among the computed ones
 };
 
 // Rounding to nearest is monotone: exact numbers are compared only where doubles are equal.
@@ -97,10 +98,13 @@ struct Segment {
   PieceNumber piece;
 };
 
-// The segments of one line, and the vertices on it in order.
+// The segments of one line, and the vertices on it in order: where they begin among those of all
+// lines, and how many there are.
 struct LineContent {
-  std::vector<Segment> segments;
-  std::vector<VertexNumber> stations;
+  std::uint32_t first_segment = 0;
+  std::uint32_t segment_count = 0;
+  std::uint32_t first_station = 0;
+  std::uint32_t station_count = 0;
 };
 
 // An edge between two settled facets. It is no part of a numbered line: no other piece lies in the
@@ -118,8 +122,16 @@ struct SettledEdge {
 struct SettledFace {
   OrientedPlaneRef plane;
   PieceNumber piece;
-  std::vector<VertexNumber> loop;      // the face on the left, seen from outside
-  std::vector<bool> has_settled_side;  // from corner i of the loop to the next
+  std::uint32_t first_side = 0;  // among those of all settled faces
+  std::uint32_t side_count = 0;
+  bool all_sides_settled = true;
+};
+
+// A corner of a settled face, and whether the side from there to the next one is settled. The face
+// is on the left, seen from outside.
+struct SettledSide {
+  VertexNumber from;
+  bool settled;
 };
 
 class Merger {
@@ -161,34 +173,53 @@ class Merger {
 
   // Sets vertices_, edges_, settled_edges_ and settled_faces_.
   void number_vertices(const std::vector<PieceBuffer>& buffers) {
-    std::vector<const Vertex*> corners;
-    for (const PieceBuffer& buffer : buffers) {
-      for (const Corner& corner : buffer.corners) corners.push_back(&corner.vertex);
-    }
-    InternedVertices interned = intern(geometry_, corners, statistics_);
-    vertices_ = std::move(interned.distinct);
-    edges_.reserve(corners.size());
-    std::size_t base = 0;
+    const InternedVertices interned = intern(geometry_, vertices_of(buffers), statistics_);
+    vertices_ = interned.distinct;
+    std::size_t meeting_points = 0;
+    std::vector<VertexNumber> numbers;
     PieceNumber number = 0;
+    const std::size_t pieces = count_pieces(buffers);
+    polytope_of_piece_.reserve(pieces);
     for (const PieceBuffer& buffer : buffers) {
       for (const BoundaryPiece& piece : buffer.pieces) {
-        const auto corners =
-            std::span(buffer.corners).subspan(piece.first_corner, piece.corner_count);
-        const auto numbers =
-            std::span(interned.number).subspan(base + piece.first_corner, piece.corner_count);
+        const std::span<const Corner> corners = buffer.corners_of(scene_, piece);
+        numbers.clear();
+        for (const Corner& corner : corners) {
+          numbers.push_back(
+              corner.vertex.is_point
+                  ? interned.number_of_point[static_cast<std::uint32_t>(corner.vertex.point)]
+                  : interned.number_of_meeting_point[meeting_points++]);
+        }
         if (settled_.is_settled(piece)) {
           add_settled_face(piece, number, corners, numbers);
         } else {
-          for (std::uint32_t i = 0; i < piece.corner_count; ++i) {
+          for (std::uint32_t i = 0; i < corners.size(); ++i) {
             add_edge(piece, number, corners, numbers, i);
           }
         }
         polytope_of_piece_.push_back(polytope_of(piece));
         ++number;
       }
-      base += buffer.corners.size();
     }
     statistics_pieces_ = number;
+  }
+
+  // Meeting points in the order of the pieces and their corners, and the points that occur.
+  CornerVertices vertices_of(const std::vector<PieceBuffer>& buffers) const {
+    CornerVertices result;
+    result.has_point.assign(geometry_.point_count(), false);
+    for (const PieceBuffer& buffer : buffers) {
+      for (const BoundaryPiece& piece : buffer.pieces) {
+        for (const Corner& corner : buffer.corners_of(scene_, piece)) {
+          if (corner.vertex.is_point) {
+            result.has_point[static_cast<std::uint32_t>(corner.vertex.point)] = true;
+          } else {
+            result.meeting_points.push_back(&corner.vertex);
+          }
+        }
+      }
+    }
+    return result;
   }
 
   // The edge from corner i to the next.
@@ -203,11 +234,13 @@ class Merger {
 
   void add_settled_face(const BoundaryPiece& piece, PieceNumber number,
                         std::span<const Corner> corners, std::span<const VertexNumber> numbers) {
-    SettledFace face{piece.plane, number, {numbers.begin(), numbers.end()}, {}};
+    SettledFace face{piece.plane, number, static_cast<std::uint32_t>(settled_sides_.size()),
+                     static_cast<std::uint32_t>(corners.size()), true};
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const bool settled = settled_.is_settled(corners[i].side_plane);
-      face.has_settled_side.push_back(settled);
+      settled_sides_.push_back({numbers[i], settled});
       if (!settled) {
+        face.all_sides_settled = false;
         add_edge(piece, number, corners, numbers, i);
         continue;
       }
@@ -222,10 +255,13 @@ class Merger {
     }
     if (piece.corner_sense != piece.plane.sense) {
       // Corners and the sides between them, backwards from the same corner.
-      std::reverse(face.loop.begin() + 1, face.loop.end());
-      std::reverse(face.has_settled_side.begin(), face.has_settled_side.end());
+      const auto sides = std::span(settled_sides_).subspan(face.first_side);
+      for (std::size_t i = 0; i < sides.size(); ++i) {
+        sides[i].from = numbers[i == 0 ? 0 : numbers.size() - i];
+        sides[i].settled = settled_.is_settled(corners[numbers.size() - 1 - i].side_plane);
+      }
     }
-    settled_faces_.push_back(std::move(face));
+    settled_faces_.push_back(face);
   }
 
   // The convex primitive of which the piece is a whole facet, or none.
@@ -350,6 +386,7 @@ class Merger {
   void add_up(const std::vector<PieceEdge>& edges, const std::vector<LineNumber>& line_of_edge) {
     const std::vector<std::uint32_t> order = edges_by_line(edges, line_of_edge);
     content_.resize(lines_.size());
+    segments_.reserve(edges.size());
     std::vector<std::uint32_t> rank(vertices_.size(), none);
     std::vector<VertexNumber> stations;
     for (std::size_t begin = 0; begin < order.size();) {
@@ -363,15 +400,18 @@ class Merger {
       }
       sort_along(line, stations);
       for (std::uint32_t i = 0; i < stations.size(); ++i) rank[stations[i]] = i;
+      LineContent& content = content_[line];
+      content.first_segment = static_cast<std::uint32_t>(segments_.size());
       for (std::size_t group = begin; group < end;) {
         std::size_t group_end = group;
         while (group_end < end && edges[order[group_end]].plane == edges[order[group]].plane) {
           ++group_end;
         }
         add_up_on_plane(edges, std::span(order).subspan(group, group_end - group), stations, rank,
-                        content_[line].segments);
+                        segments_);
         group = group_end;
       }
+      content.segment_count = static_cast<std::uint32_t>(segments_.size()) - content.first_segment;
       begin = end;
     }
   }
@@ -432,7 +472,7 @@ class Merger {
     is_vertex_.assign(vertices_.size(), false);
     std::vector<LineNumber> first_line(vertices_.size(), none);
     for (LineNumber line = 0; line < content_.size(); ++line) {
-      for (const Segment& segment : content_[line].segments) {
+      for (const Segment& segment : segments_of(line)) {
         for (const VertexNumber end : {segment.from, segment.to}) {
           if (first_line[end] == none) first_line[end] = line;
           if (first_line[end] != line) is_vertex_[end] = true;
@@ -442,15 +482,32 @@ class Merger {
     // The facets on both sides have edges of other directions there.
     for (const SettledEdge& edge : settled_edges_)
       is_vertex_[edge.from] = is_vertex_[edge.to] = true;
-    for (LineNumber line = 0; line < content_.size(); ++line) collect_stations(line);
+    stations_.reserve(2 * segments_.size());
+    std::vector<VertexNumber> stations;
+    for (LineNumber line = 0; line < content_.size(); ++line) {
+      stations.clear();
+      for (const Segment& segment : segments_of(line)) {
+        stations.push_back(segment.from);
+        stations.push_back(segment.to);
+      }
+      set_stations(line, stations);
+    }
   }
 
-  void collect_stations(LineNumber line) {
-    LineContent& content = content_[line];
-    for (const Segment& segment : content.segments) {
-      for (const VertexNumber end : {segment.from, segment.to}) content.stations.push_back(end);
-    }
-    sort_along(line, content.stations);
+  std::span<const Segment> segments_of(LineNumber line) const {
+    return std::span(segments_).subspan(content_[line].first_segment, content_[line].segment_count);
+  }
+
+  std::span<const VertexNumber> stations_of(LineNumber line) const {
+    return std::span(stations_).subspan(content_[line].first_station, content_[line].station_count);
+  }
+
+  // In any order, also more than once.
+  void set_stations(LineNumber line, std::vector<VertexNumber>& stations) {
+    sort_along(line, stations);
+    content_[line].first_station = static_cast<std::uint32_t>(stations_.size());
+    content_[line].station_count = static_cast<std::uint32_t>(stations.size());
+    stations_.insert(stations_.end(), stations.begin(), stations.end());
   }
 
   struct Span {
@@ -510,34 +567,32 @@ class Merger {
   // visit(run)
   template <class Visit>
   void for_each_run(LineNumber line, Visit visit) {
-    const LineContent& content = content_[line];
-    if (content.segments.empty()) return;
+    const std::span<const Segment> segments = segments_of(line);
+    if (segments.empty()) return;
+    const std::span<const VertexNumber> stations = stations_of(line);
     rank_.resize(vertices_.size(), 0);
-    for (std::uint32_t i = 0; i < content.stations.size(); ++i) rank_[content.stations[i]] = i;
-    for (std::size_t begin = 0; begin < content.segments.size();) {
+    for (std::uint32_t i = 0; i < stations.size(); ++i) rank_[stations[i]] = i;
+    for (std::size_t begin = 0; begin < segments.size();) {
       std::size_t end = begin;
-      while (end < content.segments.size() &&
-             content.segments[end].plane == content.segments[begin].plane) {
-        ++end;
-      }
-      run_along(content, begin, end, visit);
+      while (end < segments.size() && segments[end].plane == segments[begin].plane) ++end;
+      run_along(segments.subspan(begin, end - begin), stations, visit);
       begin = end;
     }
   }
 
   // The segments of one plane are ascending along the line and do not overlap.
   template <class Visit>
-  void run_along(const LineContent& content, std::size_t begin, std::size_t end, Visit& visit) {
+  void run_along(std::span<const Segment> segments, std::span<const VertexNumber> stations,
+                 Visit& visit) {
     std::uint32_t start = none;  // rank where the present run began
     bool forward = true;
     const Segment* owner = nullptr;
     std::uint32_t polytope = none;
-    for (std::size_t s = begin; s < end; ++s) {
-      const Segment& segment = content.segments[s];
+    for (const Segment& segment : segments) {
       const std::uint32_t polytope_here = polytope_of_piece_[segment.piece];
       const auto [low, high] = std::minmax(rank_[segment.from], rank_[segment.to]);
       const bool goes_forward = rank_[segment.from] < rank_[segment.to];
-      if (is_vertex_[content.stations[low]]) {
+      if (is_vertex_[stations[low]]) {
         if (start != none) broken("an edge that does not end at its vertex");
         start = low;
         forward = goes_forward;
@@ -548,9 +603,9 @@ class Merger {
       if (start == none || forward != goes_forward)
         broken("an edge that ends where there is no vertex");
       for (std::uint32_t r = low + 1; r <= high; ++r) {
-        if (!is_vertex_[content.stations[r]]) continue;
-        const VertexNumber a = content.stations[start];
-        const VertexNumber b = content.stations[r];
+        if (!is_vertex_[stations[r]]) continue;
+        const VertexNumber a = stations[start];
+        const VertexNumber b = stations[r];
         visit(Run{*owner, forward ? a : b, forward ? b : a, polytope});
         start = r;
         owner = &segment;
@@ -586,9 +641,11 @@ class Merger {
     GroupedBoxes(boxes, group_begins).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
       touch(all[i], all[j]);
     });
-    std::sort(changed_.begin(), changed_.end());
-    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-    for (const LineNumber line : changed_) sort_along(line, content_[line].stations);
+    for (auto& [line, touching] : touching_) {
+      const std::span<const VertexNumber> stations = stations_of(line);
+      touching.insert(touching.end(), stations.begin(), stations.end());
+      set_stations(line, touching);
+    }
     for (auto& [edge, cuts] : cuts_) sort_from(edge[0], edge[1], cuts);
   }
 
@@ -608,8 +665,7 @@ class Merger {
   // States that a vertex lies on a span.
   void add_station(const Span& span, VertexNumber vertex) {
     if (!is_settled(span)) {
-      content_[span.line].stations.push_back(vertex);
-      changed_.push_back(span.line);
+      touching_[span.line].push_back(vertex);
     } else if (vertex != span.from && vertex != span.to) {
       cuts_[{span.from, span.to}].push_back(vertex);
     }
@@ -734,25 +790,24 @@ class Merger {
   std::vector<SingleFace> single_faces(std::vector<FaceEdge>& edges) {
     std::vector<SingleFace> result;
     result.reserve(settled_faces_.size());
-    for (SettledFace& face : settled_faces_) {
+    for (const SettledFace& face : settled_faces_) {
+      const auto sides = std::span(settled_sides_).subspan(face.first_side, face.side_count);
       const auto for_each_settled_part = [&](const auto& visit) {
-        for (std::size_t i = 0; i < face.loop.size(); ++i) {
-          if (!face.has_settled_side[i]) continue;
-          for_each_part(face.loop[i], face.loop[i + 1 == face.loop.size() ? 0 : i + 1], visit);
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+          if (!sides[i].settled) continue;
+          for_each_part(sides[i].from, sides[i + 1 == sides.size() ? 0 : i + 1].from, visit);
         }
       };
-      const auto& settled = face.has_settled_side;
-      if (std::find(settled.begin(), settled.end(), false) != settled.end()) {
+      if (!face.all_sides_settled) {
         for_each_settled_part([&](VertexNumber from, VertexNumber to) {
           edges.push_back({face.plane, face.piece, from, to});
         });
-      } else if (cuts_.empty()) {
-        result.push_back({face.plane, std::move(face.loop)});
-      } else {
-        std::vector<VertexNumber> loop;
-        for_each_settled_part([&](VertexNumber from, VertexNumber) { loop.push_back(from); });
-        result.push_back({face.plane, std::move(loop)});
+        continue;
       }
+      std::vector<VertexNumber> loop;
+      loop.reserve(sides.size());
+      for_each_settled_part([&](VertexNumber from, VertexNumber) { loop.push_back(from); });
+      result.push_back({face.plane, std::move(loop)});
     }
     return result;
   }
@@ -815,6 +870,7 @@ class Merger {
       const std::size_t i = meeting_points[k];
       computed[k] = geometry_.exact_point(vertices_[used[i]]);
       positions[i].exact = &computed[k];
+      positions[i].computed = k;
     });
     for (Position& position : positions) {
       const Vertex& v = vertices_[position.number];
@@ -842,7 +898,12 @@ class Merger {
     boundary.approximate.reserve(positions.size());
     for (const Position& position : positions) {
       renumbered[position.number] = static_cast<VertexNumber>(boundary.vertices.size());
-      boundary.vertices.push_back(*position.exact);
+      // Computed ones belong to nobody else.
+      if (const bool is_computed = !vertices_[position.number].is_point; is_computed) {
+        boundary.vertices.push_back(std::move(computed[position.computed]));
+      } else {
+        boundary.vertices.push_back(*position.exact);
+      }
       boundary.approximate.push_back(position.approximate);
     }
     return renumbered;
@@ -858,13 +919,16 @@ class Merger {
   std::vector<PieceEdge> edges_;
   std::vector<SettledEdge> settled_edges_;
   std::vector<SettledFace> settled_faces_;
+  std::vector<SettledSide> settled_sides_;
   std::map<std::array<VertexNumber, 2>, std::vector<VertexNumber>> cuts_;  // of settled edges
-  std::vector<LineNumber> changed_;  // lines on which other edges were found to touch
+  std::map<LineNumber, std::vector<VertexNumber>> touching_;  // where other edges touch a line
   std::vector<std::uint32_t> polytope_of_piece_;
   std::vector<Vertex> vertices_;
   DisjointSets faces_;
   std::vector<LineSample> lines_;
-  std::vector<LineContent> content_;
+  std::vector<LineContent> content_;  // by line
+  std::vector<Segment> segments_;     // of all lines
+  std::vector<VertexNumber> stations_;
   std::vector<bool> is_vertex_;
   std::vector<std::uint32_t> rank_;
   bool touch_index_built_ = false;

@@ -11,9 +11,19 @@ using csg::Membership;
 
 void PieceBuffer::add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
                       std::uint64_t share, std::span<const Corner> polygon) {
-  pieces.push_back({outward, corner_sense, static_cast<std::uint32_t>(corners.size()),
-                    static_cast<std::uint32_t>(polygon.size()), facet, share, false});
-  corners.insert(corners.end(), polygon.begin(), polygon.end());
+  BoundaryPiece piece{outward, corner_sense, 0, 0, facet, share, false};
+  if (share != facet_share::whole) {
+    piece.first_corner = static_cast<std::uint32_t>(corners.size());
+    piece.corner_count = static_cast<std::uint32_t>(polygon.size());
+    corners.insert(corners.end(), polygon.begin(), polygon.end());
+  }
+  pieces.push_back(piece);
+}
+
+std::span<const Corner> PieceBuffer::corners_of(const Scene& scene,
+                                                const BoundaryPiece& piece) const {
+  if (piece.share == facet_share::whole) return scene.corners_of(piece.facet);
+  return std::span(corners).subspan(piece.first_corner, piece.corner_count);
 }
 
 CellEvaluator::CellEvaluator(const Scene& scene, Progress* progress)
@@ -147,9 +157,10 @@ void CellEvaluator::descend(Range piece, LocalPlace front, LocalPlace behind, st
         split_signs(scene_.geometry, polygon, node.plane, signs_, *statistics_);
     if (split == PlaneSplit::Both) {
       const std::size_t positive_begin = pool_.size();
-      append_part(scene_.geometry, polygon, own, node.plane, signs_, Sign::Positive, pool_);
+      const PolygonCut cut(scene_.geometry, polygon, own, node.plane, signs_);
+      cut.append_part(polygon, signs_, Sign::Positive, pool_);
       const std::size_t negative_begin = pool_.size();
-      append_part(scene_.geometry, polygon, own, node.plane, signs_, Sign::Negative, pool_);
+      cut.append_part(polygon, signs_, Sign::Negative, pool_);
       const std::size_t end = pool_.size();
       const std::uint64_t half = piece.share / 2;
       descend({positive_begin, negative_begin, half}, follow(front, true), follow(behind, true),

@@ -30,6 +30,7 @@ inline constexpr std::uint64_t whole = std::uint64_t{1} << 62U;
 struct BoundaryPiece {
   OrientedPlaneRef plane;        // outward normal of the solid
   signed char corner_sense = 1;  // corners are counter-clockwise about the stored normal if +1
+  // In the buffer's store; none of a whole facet, whose corners are the scene's.
   std::uint32_t first_corner = 0;
   std::uint32_t corner_count = 0;
   FacetIndex facet = 0;     // of the scene, that this is a part of
@@ -42,6 +43,8 @@ struct PieceBuffer {
   std::vector<BoundaryPiece> pieces;
   std::vector<Corner> corners;
 
+  std::span<const Corner> corners_of(const Scene& scene, const BoundaryPiece& piece) const;
+  // The corners are copied unless the share is that of a whole facet.
   void add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
            std::uint64_t share, std::span<const Corner> polygon);
 };

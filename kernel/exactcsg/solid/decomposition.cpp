@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
+#include "exactcsg/csg/prune.hpp"
 #include "exactcsg/solid/per_thread.hpp"
 #include "exactcsg/solid/polygon.hpp"
 
@@ -16,7 +15,7 @@ namespace {
 using csg::Membership;
 
 constexpr std::uint32_t depth_limit = 4000;
-constexpr std::size_t sample_size = 384;
+constexpr std::size_t sample_size = 128;
 
 // How many divisions in a row may hardly separate anything before the cell is evaluated as it is.
 // Evaluation costs at least the square of the facets (measured: bevel gears of 240 meshes went from
@@ -28,30 +27,12 @@ constexpr std::uint32_t stall_limit(std::size_t facets) {
 // Facets in at most three planes share a point: no division will ever separate them (MEG's rule).
 constexpr std::size_t inseparable_planes = 3;
 
-void set_bounds(ClippedFacet& facet, std::span<const Corner> corners) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  facet.lower = {infinity, infinity, infinity};
-  facet.upper = {-infinity, -infinity, -infinity};
-  for (const Corner& corner : corners) {
-    const std::array<double, 3> position{corner.vertex.x, corner.vertex.y, corner.vertex.z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // Widened by two units in the last place, for the rounding of this very sum.
-      const double slack = corner.vertex.error + 0x1p-51 * std::abs(position[axis]);
-      facet.lower[axis] = std::min(facet.lower[axis], position[axis] - slack);
-      facet.upper[axis] = std::max(facet.upper[axis], position[axis] + slack);
-    }
-  }
-}
-
 // Where a facet is with respect to a wall.
 enum class WallSide : unsigned char { Below, Above, Both, Within };
 
-WallSide wall_side(const Geometry& geometry, const ClippedFacet& facet,
-                   std::span<const Corner> corners, const Division& division,
-                   std::vector<Sign>& signs, TierStatistics& statistics) {
-  const auto axis = static_cast<std::size_t>(division.axis);
-  if (facet.upper[axis] < division.position) return WallSide::Below;
-  if (facet.lower[axis] > division.position) return WallSide::Above;
+WallSide exact_wall_side(const Geometry& geometry, std::span<const Corner> corners,
+                         const Division& division, std::vector<Sign>& signs,
+                         TierStatistics& statistics) {
   signs.resize(corners.size());
   bool below = false;
   bool above = false;
@@ -66,6 +47,15 @@ WallSide wall_side(const Geometry& geometry, const ClippedFacet& facet,
   return above ? WallSide::Above : WallSide::Within;
 }
 
+// As far as the bounds tell; Both: they do not.
+WallSide wall_side(const Range& bounds, const Division& division) {
+  if (bounds.upper < division.position) return WallSide::Below;
+  if (bounds.lower > division.position) return WallSide::Above;
+  return WallSide::Both;
+}
+
+bool reaches(WallSide side, WallSide child) { return side == child || side == WallSide::Both; }
+
 }  // namespace
 
 // Indexed by primitive; reset after use.
@@ -73,8 +63,10 @@ struct Decomposition::Scratch {
   explicit Scratch(std::size_t primitives)
       : status(primitives, Membership::Unknown), in_tree(primitives, 0) {}
   std::vector<Membership> status;
-  std::vector<unsigned char> in_tree;
+  std::vector<unsigned char> in_tree;  // a bit for either child
   csg::PruneScratch<PrunedTree> prune;
+  std::vector<WallSide> sides;
+  std::vector<Sign> signs;
 };
 
 struct Decomposition::ScratchPerThread : PerThread<Scratch> {
@@ -88,98 +80,173 @@ Decomposition::~Decomposition() = default;
 class Decomposition::Divider {
  public:
   Divider(const Decomposition& decomposition, CellTask& task, const Division& division)
-      : decomposition_(decomposition),
-        scene_(decomposition.scene_),
+      : scene_(decomposition.scene_),
         task_(task),
         division_(division),
-        scratch_(decomposition.scratch_->local()) {}
+        axis_(static_cast<std::size_t>(division.axis)),
+        scratch_(decomposition.scratch_->local()),
+        children_(2) {}
 
   std::vector<CellTask> divide() {
-    std::vector<CellTask> children(2);
-    sides_.reserve(task_.facets.size());
-    for (const ClippedFacet& facet : task_.facets) {
-      sides_.push_back(wall_side(scene_.geometry, facet, decomposition_.corners_of(task_, facet),
-                                 division_, signs_, task_.statistics));
-    }
-    make_child(children[0], WallSide::Below);
-    make_child(children[1], WallSide::Above);
-    const auto square = [](std::size_t n) {
-      return static_cast<double>(n) * static_cast<double>(n);
-    };
-    const bool separates = square(children[0].facets.size()) + square(children[1].facets.size()) <
-                           0.9 * square(task_.facets.size());
-    for (CellTask& child : children) child.stalled = separates ? 0 : task_.stalled + 1;
-    children[0].statistics = task_.statistics;
-    children[0].statistics += below_statistics_;
-    return children;
+    find_sides();
+    prepare_child(0);
+    prepare_child(1);
+    distribute();
+    for (CellTask& child : children_) mark_tree(child.tree, 0);
+    finish_children();
+    return std::move(children_);
   }
 
  private:
-  void make_child(CellTask& child, WallSide which) {
-    const auto axis = static_cast<std::size_t>(division_.axis);
-    child.cell = task_.cell;
-    (which == WallSide::Below ? child.cell.upper : child.cell.lower)[axis] = division_.position;
-    child.depth = task_.depth + 1;
-    settle_lost_primitives(child.cell, which);
-    csg::prune_into(
-        task_.tree, [&](PrimitiveIndex primitive) { return scratch_.status[primitive]; },
-        child.tree, scratch_.prune);
-    mark_tree(child.tree, 1);
-    for (std::size_t i = 0; i < task_.facets.size(); ++i) {
-      const ClippedFacet& facet = task_.facets[i];
-      if (sides_[i] != which && sides_[i] != WallSide::Both) continue;
-      if (scratch_.in_tree[scene_.facets[facet.facet].primitive] == 0) continue;
-      add_facet(child, facet, sides_[i] == WallSide::Both, which);
-    }
-    mark_tree(child.tree, 0);
-    for (const ClippedFacet& facet : task_.facets) {
-      scratch_.status[scene_.facets[facet.facet].primitive] = Membership::Unknown;
+  // Where the facets of one primitive are.
+  struct PrimitiveSides {
+    WallSide side = WallSide::Within;  // of all; Both: of some only, or unknown
+    std::size_t first = 0;  // of its facets' in Scratch::sides, if they are not on one side
+    std::array<std::uint32_t, 2> counts{};  // that reach each child
+  };
+
+  static WallSide side_of_child(std::size_t child) {
+    return child == 0 ? WallSide::Below : WallSide::Above;
+  }
+
+  const Range& bounds_of(FacetIndex whole) const { return scene_.bounds.facets[axis_][whole]; }
+
+  void find_sides() {
+    scratch_.sides.clear();
+    primitive_sides_.reserve(task_.primitives.size());
+    for (const PrimitiveFacets& facets : task_.primitives) {
+      primitive_sides_.push_back(sides_of(facets));
     }
   }
 
+  PrimitiveSides sides_of(const PrimitiveFacets& facets) {
+    PrimitiveSides result;
+    const Range& bounds = scene_.bounds.primitives[axis_][facets.primitive];
+    result.side = wall_side(bounds, division_);
+    const auto count = static_cast<std::uint32_t>(facets.count());
+    if (result.side != WallSide::Both) {
+      result.counts[result.side == WallSide::Above ? 1 : 0] = count;
+      return result;
+    }
+    result.first = scratch_.sides.size();
+    const auto add = [&](WallSide side) {
+      scratch_.sides.push_back(side);
+      for (std::size_t child = 0; child < 2; ++child) {
+        result.counts[child] += reaches(side, side_of_child(child)) ? 1 : 0;
+      }
+    };
+    for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
+      const FacetIndex facet = task_.whole_facet(scene_, facets, i);
+      const WallSide side = wall_side(bounds_of(facet), division_);
+      add(side == WallSide::Both ? exact_side(scene_.corners_of(facet)) : side);
+    }
+    for (const ClippedFacet& facet : task_.clipped_of(facets)) {
+      const WallSide side = wall_side(facet.bounds[axis_], division_);
+      add(side == WallSide::Both ? exact_side(task_.corners_of(facet)) : side);
+    }
+    return result;
+  }
+
+  WallSide exact_side(std::span<const Corner> corners) {
+    return exact_wall_side(scene_.geometry, corners, division_, scratch_.signs, task_.statistics);
+  }
+
+  void prepare_child(std::size_t which) {
+    CellTask& child = children_[which];
+    child.cell = task_.cell;
+    (which == 0 ? child.cell.upper : child.cell.lower)[axis_] = division_.position;
+    child.depth = task_.depth + 1;
+    settle_lost_primitives(which);
+    csg::prune_into(
+        task_.tree, [&](PrimitiveIndex primitive) { return scratch_.status[primitive]; },
+        child.tree, scratch_.prune);
+    for (const PrimitiveFacets& facets : task_.primitives) {
+      scratch_.status[facets.primitive] = Membership::Unknown;
+    }
+    mark_tree(child.tree, which == 0 ? 1 : 2);
+    reserve(which);
+  }
+
+  // mark: a bit to be set, or 0 to clear all.
   void mark_tree(const PrunedTree& tree, unsigned char mark) {
     auto node = tree.root();
     const auto end = node.next_sibling();
     for (; !(node == end); node = node.first_child()) {
-      if (node.kind() == csg::NodeKind::Primitive) scratch_.in_tree[node.primitive()] = mark;
+      if (node.kind() != csg::NodeKind::Primitive) continue;
+      unsigned char& marks = scratch_.in_tree[node.primitive()];
+      marks = mark == 0 ? 0 : static_cast<unsigned char>(marks | mark);
     }
+  }
+
+  bool is_in_tree(std::size_t which, PrimitiveIndex primitive) const {
+    return (scratch_.in_tree[primitive] >> which & 1U) != 0;
+  }
+
+  void reserve(std::size_t which) {
+    CellTask& child = children_[which];
+    std::size_t primitives = 0;
+    std::size_t whole = 0;
+    for (std::size_t i = 0; i < task_.primitives.size(); ++i) {
+      const PrimitiveFacets& facets = task_.primitives[i];
+      const std::uint32_t count = primitive_sides_[i].counts[which];
+      if (count == 0 || !is_in_tree(which, facets.primitive)) continue;
+      ++primitives;
+      if (!(facets.all && primitive_sides_[i].side != WallSide::Both)) {
+        whole += std::min(count, facets.whole_count);
+      }
+    }
+    child.primitives.reserve(primitives);
+    child.whole.reserve(whole);
   }
 
   // A primitive none of whose facets reaches the child is Full or Empty there: an inner point of
   // the child decides.
-  void settle_lost_primitives(const Cell& cell, WallSide which) {
+  void settle_lost_primitives(std::size_t which) {
     inner_point_.reset();
-    for (std::size_t begin = 0; begin < task_.facets.size();) {
-      const PrimitiveIndex primitive = scene_.facets[task_.facets[begin].facet].primitive;
-      std::size_t end = begin;
-      bool reaches = false;
-      for (; end < task_.facets.size() &&
-             scene_.facets[task_.facets[end].facet].primitive == primitive;
-           ++end) {
-        reaches |= sides_[end] == which || sides_[end] == WallSide::Both;
-      }
-      if (!reaches) scratch_.status[primitive] = status_at_inner_point(cell, primitive, begin, end);
-      begin = end;
+    for (std::size_t i = 0; i < task_.primitives.size(); ++i) {
+      if (primitive_sides_[i].counts[which] != 0) continue;
+      const PrimitiveFacets& facets = task_.primitives[i];
+      scratch_.status[facets.primitive] =
+          status_at_inner_point(children_[which].cell, facets, primitive_sides_[i]);
     }
   }
 
-  Membership status_at_inner_point(const Cell& cell, PrimitiveIndex primitive, std::size_t begin,
-                                   std::size_t end) {
+  Membership status_at_inner_point(const Cell& cell, const PrimitiveFacets& facets,
+                                   const PrimitiveSides& sides) {
+    // The child lies beyond the primitive's bounds.
+    if (sides.side != WallSide::Both && is_bounded(facets.primitive)) return Membership::Out;
     if (!inner_point_) inner_point_ = inner_point(cell);
-    if (!scene_.primitives[primitive].convex) {
-      std::vector<FacetPolygon> polygons;
-      for (std::size_t i = begin; i < end; ++i) {
-        polygons.push_back({scene_.facets[task_.facets[i].facet].plane,
-                            decomposition_.corners_of(task_, task_.facets[i])});
-      }
-      return mesh_membership(scene_.geometry, scene_.geometry.exact_point(*inner_point_), polygons);
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-      const OrientedPlaneRef plane = scene_.facets[task_.facets[i].facet].plane;
+    if (!scene_.primitives[facets.primitive].convex) return status_of_mesh(facets);
+    const auto is_outside = [&](FacetIndex facet) {
+      const OrientedPlaneRef plane = scene_.facets[facet].plane;
       const Sign side = scene_.geometry.side(*inner_point_, plane.plane, task_.statistics);
-      if (side * sign_of(static_cast<int>(plane.sense)) != Sign::Negative) return Membership::Out;
+      return side * sign_of(static_cast<int>(plane.sense)) != Sign::Negative;
+    };
+    for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
+      if (is_outside(task_.whole_facet(scene_, facets, i))) return Membership::Out;
+    }
+    for (const ClippedFacet& facet : task_.clipped_of(facets)) {
+      if (is_outside(facet.facet)) return Membership::Out;
     }
     return Membership::In;
+  }
+
+  // Not a half-space, whose facet is cut off by the root cell's walls.
+  bool is_bounded(PrimitiveIndex primitive) const {
+    return scene_.corners_of(scene_.primitives[primitive].first_facet).front().vertex.is_point;
+  }
+
+  Membership status_of_mesh(const PrimitiveFacets& facets) const {
+    std::vector<FacetPolygon> polygons;
+    polygons.reserve(facets.count());
+    for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
+      const FacetIndex facet = task_.whole_facet(scene_, facets, i);
+      polygons.push_back({scene_.facets[facet].plane, scene_.corners_of(facet)});
+    }
+    for (const ClippedFacet& facet : task_.clipped_of(facets)) {
+      polygons.push_back({scene_.facets[facet.facet].plane, task_.corners_of(facet)});
+    }
+    return mesh_membership(scene_.geometry, scene_.geometry.exact_point(*inner_point_), polygons);
   }
 
   Vertex inner_point(const Cell& cell) const {
@@ -191,43 +258,115 @@ class Decomposition::Divider {
     return scene_.geometry.meet(walls[0], walls[1], walls[2]);
   }
 
-  void add_facet(CellTask& child, const ClippedFacet& facet, bool cut, WallSide which) {
-    const std::span<const Corner> corners = decomposition_.corners_of(task_, facet);
-    ClippedFacet added = facet;
-    if (!cut && !facet.clipped) {
-      child.facets.push_back(added);
-      return;
+  void distribute() {
+    for (std::size_t i = 0; i < task_.primitives.size(); ++i) {
+      const PrimitiveFacets& facets = task_.primitives[i];
+      const PrimitiveSides& sides = primitive_sides_[i];
+      for (std::size_t which = 0; which < 2; ++which) {
+        open_[which] = sides.counts[which] != 0 && is_in_tree(which, facets.primitive);
+        if (open_[which]) begin_primitive(children_[which], facets);
+      }
+      if (sides.side != WallSide::Both) {
+        const std::size_t which = sides.side == WallSide::Below ? 0 : 1;
+        if (open_[which]) take_all(children_[which], facets);
+      } else if (open_[0] || open_[1]) {
+        distribute_facets(facets, sides.first);
+      }
+      for (std::size_t which = 0; which < 2; ++which) {
+        if (open_[which]) end_primitive(children_[which]);
+      }
     }
-    added.clipped = true;
-    added.first_corner = static_cast<std::uint32_t>(child.corners.size());
-    if (cut) {
-      added.share = facet.share / 2;
-      const PlaneRef wall = PlaneRef::of_wall(division_.axis, division_.position);
-      TierStatistics& statistics = which == WallSide::Below ? below_statistics_ : task_.statistics;
-      // The signs are needed again; the filter makes them cheap.
-      ClippedFacet unbounded = facet;
-      unbounded.lower.fill(-std::numeric_limits<double>::infinity());
-      unbounded.upper.fill(std::numeric_limits<double>::infinity());
-      wall_side(scene_.geometry, unbounded, corners, division_, signs_, statistics);
-      append_part(scene_.geometry, corners, scene_.facets[facet.facet].plane.plane, wall, signs_,
-                  which == WallSide::Below ? Sign::Negative : Sign::Positive, child.corners);
-    } else {
-      child.corners.insert(child.corners.end(), corners.begin(), corners.end());
-    }
-    added.corner_count = static_cast<std::uint32_t>(child.corners.size()) - added.first_corner;
-    if (cut) set_bounds(added, std::span(child.corners).subspan(added.first_corner));
-    child.facets.push_back(added);
   }
 
-  const Decomposition& decomposition_;
+  static void begin_primitive(CellTask& child, const PrimitiveFacets& facets) {
+    child.primitives.push_back({facets.primitive, false,
+                                static_cast<std::uint32_t>(child.whole.size()), 0,
+                                static_cast<std::uint32_t>(child.clipped.size()), 0});
+  }
+
+  static void end_primitive(CellTask& child) {
+    PrimitiveFacets& facets = child.primitives.back();
+    if (!facets.all) {
+      facets.whole_count = static_cast<std::uint32_t>(child.whole.size()) - facets.first_whole;
+    }
+    facets.clipped_count = static_cast<std::uint32_t>(child.clipped.size()) - facets.first_clipped;
+    child.facet_count += facets.count();
+  }
+
+  void take_all(CellTask& child, const PrimitiveFacets& facets) const {
+    if (facets.all) {
+      child.primitives.back().all = true;
+      child.primitives.back().whole_count = facets.whole_count;
+      return;
+    }
+    const auto first = task_.whole.begin() + facets.first_whole;
+    child.whole.insert(child.whole.end(), first, first + facets.whole_count);
+    for (const ClippedFacet& facet : task_.clipped_of(facets)) take(child, facet);
+  }
+
+  void take(CellTask& child, const ClippedFacet& facet) const {
+    const std::span<const Corner> corners = task_.corners_of(facet);
+    child.clipped.push_back(facet);
+    child.clipped.back().first_corner = static_cast<std::uint32_t>(child.corners.size());
+    child.corners.insert(child.corners.end(), corners.begin(), corners.end());
+  }
+
+  void distribute_facets(const PrimitiveFacets& facets, std::size_t first_side) {
+    const WallSide* side = scratch_.sides.data() + first_side;
+    for (std::uint32_t i = 0; i < facets.whole_count; ++i, ++side) {
+      const FacetIndex facet = task_.whole_facet(scene_, facets, i);
+      if (*side == WallSide::Both) {
+        cut(facet, facet_share::whole, scene_.corners_of(facet));
+      } else if (const std::size_t which = *side == WallSide::Below ? 0 : 1; open_[which]) {
+        children_[which].whole.push_back(facet);
+      }
+    }
+    for (const ClippedFacet& facet : task_.clipped_of(facets)) {
+      if (*side == WallSide::Both) {
+        cut(facet.facet, facet.share, task_.corners_of(facet));
+      } else if (const std::size_t which = *side == WallSide::Below ? 0 : 1; open_[which]) {
+        take(children_[which], facet);
+      }
+      ++side;
+    }
+  }
+
+  void cut(FacetIndex facet, std::uint64_t share, std::span<const Corner> corners) {
+    // The signs are needed again; the filter makes them cheap.
+    exact_side(corners);
+    const PolygonCut cut(scene_.geometry, corners, scene_.facets[facet].plane.plane,
+                         PlaneRef::of_wall(division_.axis, division_.position), scratch_.signs);
+    for (std::size_t which = 0; which < 2; ++which) {
+      if (!open_[which]) continue;
+      CellTask& child = children_[which];
+      ClippedFacet part{facet, static_cast<std::uint32_t>(child.corners.size()), 0, share / 2, {}};
+      cut.append_part(corners, scratch_.signs, which == 0 ? Sign::Negative : Sign::Positive,
+                      child.corners);
+      part.corner_count = static_cast<std::uint32_t>(child.corners.size()) - part.first_corner;
+      widen(part.bounds, std::span(child.corners).subspan(part.first_corner));
+      child.clipped.push_back(part);
+    }
+  }
+
+  void finish_children() {
+    const auto square = [](std::size_t n) {
+      return static_cast<double>(n) * static_cast<double>(n);
+    };
+    const bool separates = square(children_[0].facet_count) + square(children_[1].facet_count) <
+                           0.9 * square(task_.facet_count);
+    for (CellTask& child : children_) child.stalled = separates ? 0 : task_.stalled + 1;
+    children_[0].statistics = task_.statistics;
+  }
+
   const Scene& scene_;
   CellTask& task_;
   const Division& division_;
+  std::size_t axis_;
   Scratch& scratch_;
-  std::vector<WallSide> sides_;
-  std::vector<Sign> signs_;
+  std::vector<CellTask> children_;
+  std::vector<PrimitiveSides> primitive_sides_;
+  std::array<bool, 2> open_{};  // the children that take facets of the primitive at hand
   std::optional<Vertex> inner_point_;
-  TierStatistics below_statistics_;
 };
 
 Decomposition::Decomposition(const Scene& scene, std::size_t facets_per_cell, Progress* progress)
@@ -240,103 +379,139 @@ Decomposition::Decomposition(const Scene& scene, std::size_t facets_per_cell, Pr
 bool Decomposition::inseparable(const CellTask& task) const {
   std::array<PlaneRef, inseparable_planes> planes;
   std::size_t count = 0;
-  for (const ClippedFacet& facet : task.facets) {
-    const PlaneRef plane = scene_.facets[facet.facet].plane.plane;
+  const auto is_one_too_many = [&](FacetIndex facet) {
+    const PlaneRef plane = scene_.facets[facet].plane.plane;
     const auto end = planes.begin() + static_cast<std::ptrdiff_t>(count);
-    if (std::find(planes.begin(), end, plane) != end) continue;
-    if (count == planes.size()) return false;
+    if (std::find(planes.begin(), end, plane) != end) return false;
+    if (count == planes.size()) return true;
     planes[count++] = plane;
+    return false;
+  };
+  for (const PrimitiveFacets& facets : task.primitives) {
+    for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
+      if (is_one_too_many(task.whole_facet(scene_, facets, i))) return false;
+    }
+    for (const ClippedFacet& facet : task.clipped_of(facets)) {
+      if (is_one_too_many(facet.facet)) return false;
+    }
   }
   return true;
 }
 
-bool Decomposition::is_one_primitive(const CellTask& task) const {
-  return !task.facets.empty() && scene_.facets[task.facets.front().facet].primitive ==
-                                     scene_.facets[task.facets.back().facet].primitive;
-}
-
-std::span<const Corner> Decomposition::corners_of(const CellTask& task,
-                                                  const ClippedFacet& facet) const {
-  const std::vector<Corner>& store = facet.clipped ? task.corners : scene_.corners;
-  return std::span(store).subspan(facet.first_corner, facet.corner_count);
-}
-
 CellTask Decomposition::root() const {
-  CellTask task;
-  task.cell = scene_.root;
   // Simplified, so that LAW decomposition.1 holds of the root as well.
-  csg::PruneScratch<PrunedTree> scratch;
+  PrunedTree tree;
   csg::prune_into(
-      scene_.tree, [](PrimitiveIndex) { return Membership::Unknown; }, task.tree, scratch);
-  std::vector<unsigned char> in_tree(scene_.primitives.size(), 0);
-  auto node = task.tree.root();
-  const auto end = node.next_sibling();
-  for (; !(node == end); node = node.first_child()) {
-    if (node.kind() == csg::NodeKind::Primitive) in_tree[node.primitive()] = 1;
-  }
-  for (FacetIndex f = 0; f < scene_.facets.size(); ++f) {
-    const SceneFacet& facet = scene_.facets[f];
-    if (in_tree[facet.primitive] == 0) continue;
-    ClippedFacet whole;
-    whole.facet = f;
-    whole.first_corner = facet.first_corner;
-    whole.corner_count = facet.corner_count;
-    set_bounds(whole, std::span(scene_.corners).subspan(facet.first_corner, facet.corner_count));
-    task.facets.push_back(whole);
+      scene_.tree, [](PrimitiveIndex) { return Membership::Unknown; }, tree);
+  return task_of(scene_.root, tree);
+}
+
+CellTask Decomposition::task_of(const Cell& cell, const PrunedTree& tree) const {
+  CellTask task;
+  task.cell = cell;
+  task.tree = tree;
+  std::vector<PrimitiveIndex> primitives;
+  csg::for_each_primitive(tree, [&](PrimitiveIndex p) { primitives.push_back(p); });
+  std::sort(primitives.begin(), primitives.end());
+  primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
+  for (const PrimitiveIndex primitive : primitives) {
+    const std::uint32_t count = scene_.primitives[primitive].facet_count;
+    task.primitives.push_back({primitive, true, 0, count, 0, 0});
+    task.facet_count += count;
   }
   return task;
 }
 
 bool Decomposition::is_leaf(const CellTask& task) const {
   if (progress_ != nullptr) progress_->check();
-  return task.facets.empty() || task.facets.size() <= facets_per_cell_ ||
-         task.stalled >= stall_limit(task.facets.size()) || task.depth >= depth_limit ||
+  return task.facet_count == 0 || task.facet_count <= facets_per_cell_ ||
+         task.stalled >= stall_limit(task.facet_count) || task.depth >= depth_limit ||
          inseparable(task);
 }
 
 namespace {
 
-// Facets spread over all of them, at most sample_size. A fixed stride would pick the same facet of
-// every primitive; multiples of a large odd number do not.
-std::vector<std::uint32_t> sample_of(std::size_t count) {
-  std::vector<std::uint32_t> sample;
-  if (count <= sample_size) {
-    sample.resize(count);
-    std::iota(sample.begin(), sample.end(), 0U);
-    return sample;
+// Bounds of facets spread over all of them, at most sample_size.
+class FacetSample {
+ public:
+  FacetSample(const Scene& scene, const CellTask& task)
+      : stride_(std::max(1.0, static_cast<double>(task.facet_count) / sample_size)) {
+    std::size_t passed = 0;
+    std::size_t wanted = next_wanted();
+    for (const PrimitiveFacets& facets : task.primitives) {
+      for (; wanted < passed + facets.count(); wanted = next_wanted()) {
+        const auto i = static_cast<std::uint32_t>(wanted - passed);
+        if (i < facets.whole_count) {
+          const FacetIndex facet = task.whole_facet(scene, facets, i);
+          for (std::size_t axis = 0; axis < 3; ++axis) set(axis, scene.bounds.facets[axis][facet]);
+        } else {
+          const ClippedFacet& facet = task.clipped_of(facets)[i - facets.whole_count];
+          for (std::size_t axis = 0; axis < 3; ++axis) set(axis, facet.bounds[axis]);
+        }
+        if (++count_ == sample_size) return;
+      }
+      passed += facets.count();
+    }
   }
-  constexpr std::uint64_t multiplier = 2654435761U;
-  for (std::uint64_t i = 1; i <= sample_size; ++i) {
-    sample.push_back(static_cast<std::uint32_t>((i * multiplier) % count));
+
+  std::span<const double> lower(std::size_t axis) const { return {lower_[axis].data(), count_}; }
+  std::span<const double> upper(std::size_t axis) const { return {upper_[axis].data(), count_}; }
+
+ private:
+  // One of each stretch of facets, not at a fixed place in it: a fixed stride would pick the same
+  // facet of every primitive.
+  std::size_t next_wanted() {
+    noise_ = noise_ * 6364136223846793005U + 1442695040888963407U;
+    const double place = static_cast<double>(noise_ >> 40U) * 0x1p-24;
+    const double offset = stride_ > 1 ? place : 0;
+    return static_cast<std::size_t>((static_cast<double>(count_) + offset) * stride_);
   }
-  return sample;
-}
+
+  void set(std::size_t axis, const Range& bounds) {
+    lower_[axis][count_] = bounds.lower;
+    upper_[axis][count_] = bounds.upper;
+  }
+
+  double stride_;
+  std::size_t count_ = 0;
+  std::uint64_t noise_ = 0x9e3779b97f4a7c15U;
+  std::array<std::array<double, sample_size>, 3> lower_;
+  std::array<std::array<double, sample_size>, 3> upper_;
+};
 
 // The predicted work of the two children; facets that straddle or touch the wall count in both.
-double predicted_cost(const std::vector<ClippedFacet>& facets,
-                      const std::vector<std::uint32_t>& sample, std::size_t axis, double position) {
-  std::size_t below = 0;
-  std::size_t above = 0;
-  for (const std::uint32_t i : sample) {
-    below += facets[i].lower[axis] <= position;
-    above += facets[i].upper[axis] >= position;
-  }
-  const auto cost = [](std::size_t count) {
+double predicted_cost(const FacetSample& sample, std::size_t axis, double position) {
+  const auto below =
+      std::ranges::count_if(sample.lower(axis), [=](double lower) { return lower <= position; });
+  const auto above =
+      std::ranges::count_if(sample.upper(axis), [=](double upper) { return upper >= position; });
+  const auto cost = [](std::ptrdiff_t count) {
     const auto n = static_cast<double>(count);
     return n * std::log2(n + 1);
   };
   return cost(below) + cost(above);
 }
 
-// A position in a gap between middles of facets near the given rank, not at a face where it can be
-// helped. Faces of models lie at round coordinates; the fraction is not round.
-std::optional<double> position_near(std::vector<double>& middles, std::size_t rank,
-                                    double fraction) {
+// Two successive different middles of facets, near the median.
+std::optional<Range> gap_at_median(std::span<const double> lower, std::span<const double> upper) {
+  std::array<double, sample_size> store;
+  const std::span<double> middles(store.data(), lower.size());
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    middles[i] = lower[i] + (upper[i] - lower[i]) / 2;
+  }
+  const auto median = middles.begin() + static_cast<std::ptrdiff_t>(middles.size() / 2);
+  std::nth_element(middles.begin(), median, middles.end());
+  const auto next = std::min_element(median + 1, middles.end());
+  if (next != middles.end() && *median < *next) return Range{*median, *next};
+  const auto last = std::max_element(middles.begin(), median);
+  if (last != median && *last < *median) return Range{*last, *median};
+  std::sort(middles.begin(), middles.end());
+  const std::size_t rank = middles.size() / 2;
   for (std::size_t reach = 0; reach < middles.size(); ++reach) {
     for (const std::size_t i : {rank + reach, rank - reach - 1}) {
       // Before the first one, i has wrapped round to the largest numbers.
       if (i < middles.size() - 1 && middles[i] < middles[i + 1]) {
-        return middles[i] + fraction * (middles[i + 1] - middles[i]);
+        return Range{middles[i], middles[i + 1]};
       }
     }
   }
@@ -345,41 +520,35 @@ std::optional<double> position_near(std::vector<double>& middles, std::size_t ra
 
 }  // namespace
 
+// In a gap between facets or the middle of all, and not at a face where it can be helped. Faces of
+// models lie at round coordinates; the fractions are not round.
 std::optional<Division> Decomposition::choose_division(const CellTask& task) const {
   struct Candidate {
     double cost;
     Division division;
   };
-  const std::vector<std::uint32_t> sample = sample_of(task.facets.size());
-  std::array<std::vector<double>, 3> middles;
-  std::array<double, 3> least;
-  std::array<double, 3> most;
-  least.fill(std::numeric_limits<double>::infinity());
-  most.fill(-std::numeric_limits<double>::infinity());
+  const FacetSample sample(scene_, task);
+  std::array<std::vector<Range>, 3> gaps;  // along each axis, in one of which to divide
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const std::uint32_t i : sample) {
-      const ClippedFacet& facet = task.facets[i];
-      middles[axis].push_back(facet.lower[axis] + (facet.upper[axis] - facet.lower[axis]) / 2);
-      least[axis] = std::min(least[axis], facet.lower[axis]);
-      most[axis] = std::max(most[axis], facet.upper[axis]);
+    if (const auto gap = gap_at_median(sample.lower(axis), sample.upper(axis))) {
+      gaps[axis].push_back(*gap);
     }
-    std::sort(middles[axis].begin(), middles[axis].end());
+    gaps[axis].push_back({*std::ranges::min_element(sample.lower(axis)),
+                          *std::ranges::max_element(sample.upper(axis))});
   }
   std::vector<Candidate> candidates;
   for (const double fraction : {0.4609375, 0.55859375, 0.3671875, 0.640625}) {
     candidates.clear();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const std::optional<double> position :
-           {position_near(middles[axis], middles[axis].size() / 2, fraction),
-            std::optional<double>(least[axis] + fraction * (most[axis] - least[axis]))}) {
-        if (!position) continue;
-        const Division division{static_cast<Axis>(axis), round_wall_position(*position)};
+      for (const Range& gap : gaps[axis]) {
+        const Division division{
+            static_cast<Axis>(axis),
+            round_wall_position(gap.lower + fraction * (gap.upper - gap.lower))};
         if (!(task.cell.lower[axis] < division.position &&
               division.position < task.cell.upper[axis])) {
           continue;
         }
-        candidates.push_back(
-            {predicted_cost(task.facets, sample, axis, division.position), division});
+        candidates.push_back({predicted_cost(sample, axis, division.position), division});
       }
     }
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -399,27 +568,49 @@ bool Decomposition::has_facet_in_wall(const CellTask& task, const Division& divi
     const double distance = std::abs(corner.vertex.coordinate(division.axis) - division.position);
     return distance > corner.vertex.error * (1 + 0x1p-40) + 0x1p-50 * std::abs(division.position);
   };
-  return std::any_of(task.facets.begin(), task.facets.end(), [&](const ClippedFacet& facet) {
-    if (facet.upper[axis] < division.position || facet.lower[axis] > division.position) {
-      return false;
-    }
-    const std::span<const Corner> corners = corners_of(task, facet);
+  const auto is_in_wall = [&](const Range& bounds, std::span<const Corner> corners) {
+    if (wall_side(bounds, division) != WallSide::Both) return false;
     return std::none_of(corners.begin(), corners.end(), clearly_off) &&
-           wall_side(scene_.geometry, facet, corners, division, signs, unused) == WallSide::Within;
-  });
+           exact_wall_side(scene_.geometry, corners, division, signs, unused) == WallSide::Within;
+  };
+  for (const PrimitiveFacets& facets : task.primitives) {
+    if (wall_side(scene_.bounds.primitives[axis][facets.primitive], division) != WallSide::Both) {
+      continue;
+    }
+    for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
+      const FacetIndex facet = task.whole_facet(scene_, facets, i);
+      const Range& bounds = scene_.bounds.facets[axis][facet];
+      if (wall_side(bounds, division) != WallSide::Both) continue;
+      if (is_in_wall(bounds, scene_.corners_of(facet))) return true;
+    }
+    for (const ClippedFacet& facet : task.clipped_of(facets)) {
+      if (is_in_wall(facet.bounds[axis], task.corners_of(facet))) return true;
+    }
+  }
+  return false;
 }
 
 std::vector<CellTask> Decomposition::divide(CellTask& task, const Division& division) const {
   return Divider(*this, task, division).divide();
 }
 
-void Decomposition::collect_facets(const CellTask& task, std::vector<CellFacet>& facets) const {
-  facets.clear();
-  facets.reserve(task.facets.size());
-  for (const ClippedFacet& facet : task.facets) {
-    const SceneFacet& original = scene_.facets[facet.facet];
-    facets.push_back(
-        {original.primitive, facet.facet, facet.share, {original.plane, corners_of(task, facet)}});
+void Decomposition::collect_facets(const CellTask& task, std::vector<CellFacet>& result) const {
+  result.clear();
+  result.reserve(task.facet_count);
+  for (const PrimitiveFacets& facets : task.primitives) {
+    for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
+      const FacetIndex facet = task.whole_facet(scene_, facets, i);
+      result.push_back({facets.primitive,
+                        facet,
+                        facet_share::whole,
+                        {scene_.facets[facet].plane, scene_.corners_of(facet)}});
+    }
+    for (const ClippedFacet& facet : task.clipped_of(facets)) {
+      result.push_back({facets.primitive,
+                        facet.facet,
+                        facet.share,
+                        {scene_.facets[facet.facet].plane, task.corners_of(facet)}});
+    }
   }
 }
 

@@ -15,33 +15,56 @@
 #include <span>
 #include <vector>
 
-#include "exactcsg/csg/prune.hpp"
 #include "exactcsg/solid/cell_evaluation.hpp"
 #include "exactcsg/solid/scene.hpp"
 #include "exactcsg/support/progress.hpp"
 
 namespace exactcsg {
 
-// A facet of the scene, whole or clipped to a cell, with bounds that its true corners do not
-// exceed.
+// A part of a facet of the scene, with bounds that its true corners do not exceed.
 struct ClippedFacet {
   FacetIndex facet = 0;
-  std::uint32_t first_corner = 0;
+  std::uint32_t first_corner = 0;  // in the task's store
   std::uint32_t corner_count = 0;
-  bool clipped = false;  // corners in the task's own store, otherwise in the scene's
   std::uint64_t share = facet_share::whole;
-  std::array<double, 3> lower{};
-  std::array<double, 3> upper{};
+  std::array<Range, 3> bounds;
+};
+
+// The facets of one primitive that reach a cell.
+struct PrimitiveFacets {
+  PrimitiveIndex primitive = 0;
+  bool all = false;  // all of them, whole, and not listed
+  std::uint32_t first_whole = 0;
+  std::uint32_t whole_count = 0;  // also where they are not listed
+  std::uint32_t first_clipped = 0;
+  std::uint32_t clipped_count = 0;
+
+  std::size_t count() const { return std::size_t{whole_count} + clipped_count; }
 };
 
 struct CellTask {
   Cell cell;
-  std::vector<ClippedFacet> facets;  // facets of one primitive are adjacent
-  std::vector<Corner> corners;
+  std::vector<PrimitiveFacets> primitives;  // each with a facet at least
+  std::vector<FacetIndex> whole;            // facets of one primitive are adjacent
+  std::vector<ClippedFacet> clipped;        // likewise
+  std::vector<Corner> corners;              // of the clipped ones
+  std::size_t facet_count = 0;
   PrunedTree tree;
   std::uint32_t stalled = 0;  // divisions in a row that hardly separated anything
   std::uint32_t depth = 0;
   TierStatistics statistics;  // of the divisions that led to this task
+
+  // REQUIRES facets is one of primitives. i < facets.whole_count
+  FacetIndex whole_facet(const Scene& scene, const PrimitiveFacets& facets, std::uint32_t i) const {
+    return facets.all ? scene.primitives[facets.primitive].first_facet + i
+                      : whole[facets.first_whole + i];
+  }
+  std::span<const ClippedFacet> clipped_of(const PrimitiveFacets& facets) const {
+    return std::span(clipped).subspan(facets.first_clipped, facets.clipped_count);
+  }
+  std::span<const Corner> corners_of(const ClippedFacet& facet) const {
+    return std::span(corners).subspan(facet.first_corner, facet.corner_count);
+  }
 };
 
 struct Division {
@@ -55,11 +78,14 @@ class Decomposition {
   ~Decomposition();
 
   CellTask root() const;
+  // The same of any cell and tree: its primitives' facets, whole. Of LAW decomposition.1 it is the
+  // caller's to see to it that they meet the cell. COST: O(nodes + facets of the tree's primitives)
+  CellTask task_of(const Cell& cell, const PrunedTree& tree) const;
   // The tree is constant, or the facets are few, or dividing is of no use.
   // THROWS what Progress throws.
   bool is_leaf(const CellTask& task) const;
   // All facets are of one primitive.
-  bool is_one_primitive(const CellTask& task) const;
+  static bool is_one_primitive(const CellTask& task) { return task.primitives.size() == 1; }
   // Where to divide; nullopt: nowhere without a facet in the wall.
   std::optional<Division> choose_division(const CellTask& task) const;
   // The cell below the wall and the cell above it. REQUIRES no facet lies in the wall.
@@ -67,14 +93,13 @@ class Decomposition {
 
   // The facets of a task as the cell evaluator wants them.
   void collect_facets(const CellTask& task, std::vector<CellFacet>& facets) const;
-  std::span<const Corner> corners_of(const CellTask& task, const ClippedFacet& facet) const;
+  bool has_facet_in_wall(const CellTask& task, const Division& division) const;
 
  private:
   class Divider;
   struct Scratch;
   struct ScratchPerThread;
 
-  bool has_facet_in_wall(const CellTask& task, const Division& division) const;
   bool inseparable(const CellTask& task) const;
 
   const Scene& scene_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <cstring>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -39,43 +40,79 @@ class Sha256 {
   sha256_ctx context_{};
 };
 
+static_assert(std::endian::native == std::endian::little);
+
+// Eight digits from 32 bits, the first digit in the lowest byte.
+std::uint64_t hexadecimal_digits(std::uint32_t value) {
+  std::uint64_t nibbles = value;
+  nibbles = (nibbles | nibbles << 16U) & 0x0000ffff0000ffffU;
+  nibbles = (nibbles | nibbles << 8U) & 0x00ff00ff00ff00ffU;
+  nibbles = (nibbles | nibbles << 4U) & 0x0f0f0f0f0f0f0f0fU;
+  const std::uint64_t letters = (nibbles + 0x0606060606060606U) >> 4U & 0x0101010101010101U;
+  constexpr std::uint64_t from_nine_to_letters = 'a' - '9' - 1;
+  return __builtin_bswap64(nibbles + 0x3030303030303030U + letters * from_nine_to_letters);
+}
+
+// Numbers that are written often, as text that ends in a blank.
+class NumberTexts {
+ public:
+  struct Text {
+    static constexpr std::size_t capacity = 15;
+    std::array<char, capacity> characters{};
+    std::uint8_t length = 0;
+  };
+
+  explicit NumberTexts(std::size_t count) : texts_(count) {
+    for (std::size_t i = 0; i < count; ++i) texts_[i] = text_of(i);
+  }
+  const Text& operator[](std::size_t number) const { return texts_[number]; }
+
+  static Text text_of(std::size_t number) {
+    Text text;
+    char* const begin = text.characters.data();
+    char* const end = std::to_chars(begin, begin + Text::capacity - 1, number).ptr;
+    *end = ' ';
+    text.length = static_cast<std::uint8_t>(end + 1 - begin);
+    return text;
+  }
+
+ private:
+  std::vector<Text> texts_;
+};
+
 // The text that is hashed, handed on in pieces: one buffer, no string a number.
 class HashedText {
  public:
   HashedText& operator<<(std::string_view text) {
     reserve(text.size());
-    std::copy(text.begin(), text.end(), buffer_.begin() + static_cast<std::ptrdiff_t>(used_));
+    std::copy(text.begin(), text.end(), end());
     used_ += text.size();
     return *this;
   }
-  HashedText& operator<<(char character) {
-    reserve(1);
-    buffer_[used_++] = character;
-    return *this;
-  }
-  HashedText& operator<<(std::uint64_t number) {
-    constexpr std::size_t longest = 20;
+  void add_point(const Point3& point) {
+    // A digit more than limbs need, a sign or a separator each.
+    std::size_t longest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Rational& number = coordinate(point, i);
+      longest +=
+          digits_of_limb * (mpz_size(number.get_num_mpz_t()) + mpz_size(number.get_den_mpz_t())) +
+          4;
+    }
     reserve(longest);
-    used_ = static_cast<std::size_t>(
-        std::to_chars(buffer_.data() + used_, buffer_.data() + buffer_.size(), number).ptr -
-        buffer_.data());
-    return *this;
+    for (std::size_t i = 0; i < 3; ++i) {
+      write(coordinate(point, i));
+      write(i == 2 ? '\n' : ' ');
+    }
   }
-  HashedText& operator<<(const Integer& number) {
-    constexpr std::size_t digits_of_limb = GMP_NUMB_BITS / 4;
-    std::size_t limb = mpz_size(number.get_mpz_t());
-    if (limb == 0) return *this << '0';
-    if (number < 0) *this << '-';
-    reserve(digits_of_limb * limb);
-    const mp_limb_t* const limbs = mpz_limbs_read(number.get_mpz_t());
-    --limb;
-    add_hexadecimal(limbs[limb], (static_cast<std::size_t>(std::bit_width(limbs[limb])) + 3) / 4);
-    while (limb > 0) add_hexadecimal(limbs[--limb], digits_of_limb);
-    return *this;
-  }
-  HashedText& operator<<(const Rational& number) {
-    *this << number.get_num();
-    return number.get_den() == 1 ? *this : *this << '/' << number.get_den();
+  // Numbers of one line.
+  template <std::size_t n>
+  void add_line(const std::array<const NumberTexts::Text*, n>& numbers) {
+    reserve(n * sizeof(NumberTexts::Text));
+    for (const NumberTexts::Text* number : numbers) {
+      std::memcpy(end(), number->characters.data(), NumberTexts::Text::capacity);
+      used_ += number->length;
+    }
+    buffer_[used_ - 1] = '\n';
   }
   std::string digest() {
     flush();
@@ -83,12 +120,42 @@ class HashedText {
   }
 
  private:
-  // REQUIRES that there is room
-  void add_hexadecimal(mp_limb_t value, std::size_t digits) {
-    char* const text = buffer_.data() + used_;
-    for (std::size_t i = digits; i > 0; value >>= 4U) text[--i] = "0123456789abcdef"[value & 15U];
+  static constexpr std::size_t digits_of_limb = GMP_NUMB_BITS / 4;
+
+  // These REQUIRE that there is room.
+  void write(char character) { buffer_[used_++] = character; }
+  void write(const Integer& number) {
+    std::size_t limb = mpz_size(number.get_mpz_t());
+    if (limb == 0) {
+      write('0');
+      return;
+    }
+    if (number < 0) write('-');
+    const mp_limb_t* const limbs = mpz_limbs_read(number.get_mpz_t());
+    --limb;
+    // Without its leading zeros.
+    const auto digits = (static_cast<std::size_t>(std::bit_width(limbs[limb])) + 3) / 4;
+    write_limb(end(), limbs[limb] << 4 * (digits_of_limb - digits));
     used_ += digits;
+    while (limb > 0) {
+      write_limb(end(), limbs[--limb]);
+      used_ += digits_of_limb;
+    }
   }
+  void write(const Rational& number) {
+    write(number.get_num());
+    if (number.get_den() == 1) return;
+    write('/');
+    write(number.get_den());
+  }
+  static void write_limb(char* text, mp_limb_t value) {
+    const std::array<std::uint64_t, 2> digits{
+        hexadecimal_digits(static_cast<std::uint32_t>(value >> 32U)),
+        hexadecimal_digits(static_cast<std::uint32_t>(value))};
+    std::memcpy(text, digits.data(), digits_of_limb);
+  }
+
+  char* end() { return buffer_.data() + used_; }
   void reserve(std::size_t size) {
     if (buffer_.size() - used_ >= size) return;
     flush();
@@ -104,14 +171,22 @@ class HashedText {
   std::size_t used_ = 0;
 };
 
-// rank[i]: the place of item i in sorted order.
-template <class Item, class Less>
-std::vector<std::uint32_t> sorted_order(const std::vector<Item>& items, Less less) {
-  std::vector<std::uint32_t> order(items.size());
+// Equal coordinates, which are many, are found equal without products.
+bool earlier(const Point3& p, const Point3& q) {
+  if (p.x != q.x) return p.x < q.x;
+  if (p.y != q.y) return p.y < q.y;
+  return p.z < q.z;
+}
+
+// The vertices in lexicographic order.
+std::vector<std::uint32_t> sorted_vertices(const Boundary& boundary) {
+  std::vector<std::uint32_t> order(boundary.vertices.size());
   std::iota(order.begin(), order.end(), 0U);
-  if (!std::is_sorted(items.begin(), items.end(), less)) {
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t i, std::uint32_t j) { return less(items[i], items[j]); });
+  const std::vector<Point3>& vertices = boundary.vertices;
+  if (!std::is_sorted(vertices.begin(), vertices.end(), earlier)) {
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+      return earlier(vertices[i], vertices[j]);
+    });
   }
   return order;
 }
@@ -127,17 +202,14 @@ std::vector<std::uint32_t> inverse_of(const std::vector<std::uint32_t>& order) {
 std::string digest(const Boundary& boundary) {
   HashedText text;
   const auto section = [&text](std::string_view name, std::size_t count) {
-    text << name << ' ' << std::uint64_t{count} << '\n';
+    text << name << " " << std::to_string(count) << "\n";
   };
   text << "exactcsg.boundary/3\n";
   section("vertices", boundary.vertices.size());
-  const std::vector<std::uint32_t> order = sorted_order(
-      boundary.vertices, [](const Point3& p, const Point3& q) { return compare(p, q) < 0; });
-  for (const std::uint32_t v : order) {
-    const Point3& p = boundary.vertices[v];
-    text << p.x << ' ' << p.y << ' ' << p.z << '\n';
-  }
+  const std::vector<std::uint32_t> order = sorted_vertices(boundary);
+  for (const std::uint32_t v : order) text.add_point(boundary.vertices[v]);
 
+  const NumberTexts numbers(order.size());
   const std::vector<std::uint32_t> rank = inverse_of(order);
   std::vector<BoundaryEdge> edges;
   edges.reserve(boundary.edges.size());
@@ -146,15 +218,17 @@ std::string digest(const Boundary& boundary) {
   }
   if (!std::is_sorted(edges.begin(), edges.end())) std::sort(edges.begin(), edges.end());
   section("edges", edges.size());
-  for (const BoundaryEdge& e : edges) {
-    text << std::uint64_t{e.from} << ' ' << std::uint64_t{e.to} << '\n';
-  }
+  for (const BoundaryEdge& e : edges) text.add_line<2>({&numbers[e.from], &numbers[e.to]});
 
   const std::vector<NumberedSide> sides = numbered_sides(boundary, rank);
   section("planes", sides.empty() ? 0 : std::size_t{sides.back()[0]} + 1);
   section("sides", sides.size());
+  NumberTexts::Text plane_text = NumberTexts::text_of(0);
+  std::uint32_t last_plane = 0;
   for (const auto& [plane, from, to] : sides) {
-    text << std::uint64_t{plane} << ' ' << std::uint64_t{from} << ' ' << std::uint64_t{to} << '\n';
+    if (plane != last_plane) plane_text = NumberTexts::text_of(plane);
+    last_plane = plane;
+    text.add_line<3>({&plane_text, &numbers[from], &numbers[to]});
   }
   return text.digest();
 }

@@ -102,14 +102,11 @@ class Autopartition {
       case PlaneSplit::Both:
         break;
     }
-    OwnedPolygon part{polygon.plane, {}};
-    append_part(geometry_, polygon.corners, polygon.plane.plane, divider, signs_, Sign::Positive,
-                part.corners);
-    positive.push_back(std::move(part));
-    part = {polygon.plane, {}};
-    append_part(geometry_, polygon.corners, polygon.plane.plane, divider, signs_, Sign::Negative,
-                part.corners);
-    negative.push_back(std::move(part));
+    const PolygonCut cut(geometry_, polygon.corners, polygon.plane.plane, divider, signs_);
+    positive.push_back({polygon.plane, {}});
+    cut.append_part(polygon.corners, signs_, Sign::Positive, positive.back().corners);
+    negative.push_back({polygon.plane, {}});
+    cut.append_part(polygon.corners, signs_, Sign::Negative, negative.back().corners);
   }
 
   const Geometry& geometry_;

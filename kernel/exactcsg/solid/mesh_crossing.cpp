@@ -252,18 +252,40 @@ std::vector<DoubleBox> facet_boxes(const Polyhedron& polyhedron, const Polyhedro
   return boxes;
 }
 
-void check_crossings(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
-                     const std::vector<FacetFrame>& frames) {
+namespace {
+
+template <class Visit>
+void for_each_improper_pair(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
+                            const std::vector<FacetFrame>& frames, Visit visit) {
   const std::vector<DoubleBox> boxes = facet_boxes(polyhedron, signs);
   Situation of_f;
   Situation of_g;
   BoxHierarchy(boxes).for_each_pair([&](Index i, Index j) {
     const auto [f, g] = std::minmax(i, j);
-    if (Pair(polyhedron, signs, frames, f, g, of_f, of_g).proper()) return;
+    if (!Pair(polyhedron, signs, frames, f, g, of_f, of_g).proper()) visit(f, g);
+  });
+}
+
+}  // namespace
+
+void check_crossings(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
+                     const std::vector<FacetFrame>& frames) {
+  for_each_improper_pair(polyhedron, signs, frames, [&](Index f, Index g) {
     throw Error(ErrorId::SelfIntersectingMesh,
                 {describe_facet(polyhedron, f) + " and " + describe_facet(polyhedron, g),
                  "facets that meet in common vertices and edges only"});
   });
+}
+
+std::vector<std::array<std::uint32_t, 2>> improper_pairs(const Polyhedron& polyhedron,
+                                                         const PolyhedronSigns& signs,
+                                                         const std::vector<FacetFrame>& frames) {
+  std::vector<std::array<Index, 2>> pairs;
+  for_each_improper_pair(polyhedron, signs, frames, [&](Index f, Index g) {
+    pairs.push_back({f, g});
+  });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 }  // namespace exactcsg

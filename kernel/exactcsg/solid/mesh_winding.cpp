@@ -22,26 +22,6 @@ namespace {
 
 using Index = std::uint32_t;
 
-std::vector<Index> parts_of(const Polyhedron& polyhedron, const std::vector<HalfEdge>& edges) {
-  std::vector<Index> parent(polyhedron.facets.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto find = [&](Index f) {
-    while (parent[f] != f) f = parent[f] = parent[parent[f]];
-    return f;
-  };
-  for (std::size_t k = 0; k < edges.size();) {
-    std::size_t end = k + 1;
-    while (end < edges.size() && edges[end].low == edges[k].low &&
-           edges[end].high == edges[k].high) {
-      ++end;
-    }
-    if (end == k + 2) parent[find(edges[k].facet)] = find(edges[k + 1].facet);
-    k = end;
-  }
-  for (Index f = 0; f < parent.size(); ++f) parent[f] = find(f);
-  return parent;
-}
-
 // The sign of the normal's component along the axis: Zero for a facet that is upright.
 Sign upward(const PolyhedronSigns& signs, CoordinateIndex axis, const FacetFrame& frame) {
   const auto [a, b, c] = frame.corners;
@@ -101,9 +81,32 @@ std::optional<int> winding_in_front(const Polyhedron& polyhedron, const Polyhedr
 
 }  // namespace
 
+std::vector<std::uint32_t> manifold_parts(const Polyhedron& polyhedron,
+                                          const std::vector<HalfEdge>& edges,
+                                          const std::function<bool(std::uint32_t)>& usable) {
+  std::vector<Index> parent(polyhedron.facets.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto find = [&](Index f) {
+    while (parent[f] != f) f = parent[f] = parent[parent[f]];
+    return f;
+  };
+  for (std::size_t k = 0; k < edges.size();) {
+    std::size_t end = k + 1;
+    while (end < edges.size() && edges[end].low == edges[k].low &&
+           edges[end].high == edges[k].high) {
+      ++end;
+    }
+    const bool joins = end == k + 2 && usable(edges[k].facet) && usable(edges[k + 1].facet);
+    if (joins) parent[find(edges[k].facet)] = find(edges[k + 1].facet);
+    k = end;
+  }
+  for (Index f = 0; f < parent.size(); ++f) parent[f] = find(f);
+  return parent;
+}
+
 void check_winding(const Polyhedron& polyhedron, PolyhedronSigns& signs,
                    const std::vector<FacetFrame>& frames, const std::vector<HalfEdge>& edges) {
-  const std::vector<Index> part = parts_of(polyhedron, edges);
+  const std::vector<Index> part = manifold_parts(polyhedron, edges, [](Index) { return true; });
   const std::vector<DoubleBox> boxes = facet_boxes(polyhedron, signs);
   const BoxHierarchy hierarchy(boxes);
   std::vector<bool> decided(polyhedron.facets.size(), false);

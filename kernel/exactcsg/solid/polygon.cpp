@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exactcsg/solid/polygon.hpp"
 
+#include "exactcsg/support/error.hpp"
+
 namespace exactcsg {
 
 PlaneSplit split_signs(const Geometry& geometry, std::span<const Corner> polygon, PlaneRef plane,
@@ -18,22 +20,34 @@ PlaneSplit split_signs(const Geometry& geometry, std::span<const Corner> polygon
   return positive ? PlaneSplit::AllPositive : PlaneSplit::InPlane;
 }
 
-void append_part(const Geometry& geometry, std::span<const Corner> polygon, PlaneRef supporting,
-                 PlaneRef plane, std::span<const Sign> signs, Sign kept,
-                 std::vector<Corner>& result) {
+PolygonCut::PolygonCut(const Geometry& geometry, std::span<const Corner> polygon,
+                       PlaneRef supporting, PlaneRef plane, std::span<const Sign> signs)
+    : plane_(plane) {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Sign there = signs[i + 1 == polygon.size() ? 0 : i + 1];
+    if (signs[i] == Sign::Zero || there != -signs[i]) continue;
+    if (found == crossings_.size()) {
+      throw Error(ErrorId::InternalError, {"a facet that is not convex", "a convex one"});
+    }
+    crossings_[found++] = geometry.meet(supporting, polygon[i].side_plane, plane);
+  }
+}
+
+void PolygonCut::append_part(std::span<const Corner> polygon, std::span<const Sign> signs,
+                             Sign kept, std::vector<Corner>& result) const {
   const std::size_t count = polygon.size();
+  std::size_t crossing = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t next = i + 1 == count ? 0 : i + 1;
     const Sign here = signs[i];
-    const Sign there = signs[next];
+    const Sign there = signs[i + 1 == count ? 0 : i + 1];
     if (here == kept || here == Sign::Zero) {
       // A corner in the cutting plane whose next side leaves the kept part starts the cut side.
       const bool leaves = here == Sign::Zero && there != kept;
-      result.push_back({polygon[i].vertex, leaves ? plane : polygon[i].side_plane});
+      result.push_back({polygon[i].vertex, leaves ? plane_ : polygon[i].side_plane});
     }
     if (here != Sign::Zero && there == -here) {
-      const Vertex crossing = geometry.meet(supporting, polygon[i].side_plane, plane);
-      result.push_back({crossing, there == kept ? polygon[i].side_plane : plane});
+      result.push_back({crossings_[crossing++], there == kept ? polygon[i].side_plane : plane_});
     }
   }
 }

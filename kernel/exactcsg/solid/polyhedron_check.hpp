@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -62,5 +63,17 @@ void check_crossings(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
                      const std::vector<FacetFrame>& frames);
 void check_winding(const Polyhedron& polyhedron, PolyhedronSigns& signs,
                    const std::vector<FacetFrame>& frames, const std::vector<HalfEdge>& edges);
+
+// The pairs of facets, the smaller number first, that meet in something else than common vertices
+// and common edges. Sorted.
+std::vector<std::array<std::uint32_t, 2>> improper_pairs(const Polyhedron& polyhedron,
+                                                         const PolyhedronSigns& signs,
+                                                         const std::vector<FacetFrame>& frames);
+
+// For every facet a number of the part it is connected to through edges that two facets alone have,
+// the number of a facet of that part. Facets for which `usable` is false are parts of their own.
+std::vector<std::uint32_t> manifold_parts(const Polyhedron& polyhedron,
+                                          const std::vector<HalfEdge>& edges,
+                                          const std::function<bool(std::uint32_t)>& usable);
 
 }  // namespace exactcsg

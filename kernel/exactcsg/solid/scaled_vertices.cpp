@@ -2,6 +2,8 @@
 #include "exactcsg/solid/scaled_vertices.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <optional>
 
 #include "exactcsg/number/common_denominator.hpp"
@@ -10,11 +12,12 @@ namespace exactcsg {
 
 namespace {
 
+using CoordinateRanges = std::array<CoordinateRange, 3>;
+
 // An exponent e with every extent of the vertices below 2^e, and not much more.
-long extent_exponent(const Boundary& boundary) {
+long extent_exponent(const CoordinateRanges& ranges) {
   long exponent = -1000000;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const CoordinateRange range = coordinate_range(boundary, i);
+  for (const CoordinateRange& range : ranges) {
     const Rational extent = range.highest - range.lowest;
     if (extent == 0) continue;
     exponent =
@@ -35,52 +38,231 @@ Rational power_of_two(long exponent) {
 }
 
 // floor(value * 2^shift)
-void floor_shifted(Integer& result, Integer& scratch, const Rational& value, long shift) {
+Integer floor_shifted(const Rational& value, long shift) {
+  Integer numerator = value.get_num();
+  Integer denominator = value.get_den();
   if (shift >= 0) {
-    mpz_mul_2exp(result.get_mpz_t(), value.get_num_mpz_t(), static_cast<mp_bitcnt_t>(shift));
-    mpz_fdiv_q(result.get_mpz_t(), result.get_mpz_t(), value.get_den_mpz_t());
+    numerator <<= static_cast<mp_bitcnt_t>(shift);
   } else {
-    mpz_mul_2exp(scratch.get_mpz_t(), value.get_den_mpz_t(), static_cast<mp_bitcnt_t>(-shift));
-    mpz_fdiv_q(result.get_mpz_t(), value.get_num_mpz_t(), scratch.get_mpz_t());
+    denominator <<= static_cast<mp_bitcnt_t>(-shift);
   }
+  Integer result;
+  mpz_fdiv_q(result.get_mpz_t(), numerator.get_mpz_t(), denominator.get_mpz_t());
+  return result;
 }
 
-// Moves the smallest coordinates to 0.
-void move_to_origin(ScaledVertices& s) {
-  std::array<Integer, 3> lowest = s.coordinates.front();
-  for (const auto& c : s.coordinates) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (c[i] < lowest[i]) lowest[i] = c[i];
+// Coordinates are non-negative and shorter than `width` limbs once the origin is subtracted, so
+// that it is enough to know every number on the way but for multiples of 2^(64 width).
+class Limbs {
+ public:
+  explicit Limbs(std::size_t width) : width_(width), value_(width) {}
+
+  const mp_limb_t* data() const { return value_.data(); }
+  void set(const mp_limb_t* limbs, std::size_t count) {
+    const std::size_t kept = std::min(count, width_);
+    std::copy_n(limbs, kept, value_.begin());
+    std::fill(value_.begin() + static_cast<std::ptrdiff_t>(kept), value_.end(), mp_limb_t{0});
+  }
+  void set_zero() { std::fill(value_.begin(), value_.end(), mp_limb_t{0}); }
+  void set(const Integer& value) {
+    set(mpz_limbs_read(value.get_mpz_t()), mpz_size(value.get_mpz_t()));
+    if (value < 0) negate();
+  }
+  void negate() { mpn_neg(value_.data(), value_.data(), size()); }
+  // -1 - value
+  void complement() { mpn_com(value_.data(), value_.data(), size()); }
+  void write_difference(mp_limb_t* result, const Limbs& subtracted) const {
+    mpn_sub_n(result, value_.data(), subtracted.value_.data(), size());
+  }
+
+ private:
+  mp_size_t size() const { return static_cast<mp_size_t>(width_); }
+
+  std::size_t width_;
+  std::vector<mp_limb_t> value_;
+};
+
+struct LimbSpan {
+  const mp_limb_t* limbs;
+  std::size_t count;
+};
+
+LimbSpan limbs_of(const Integer& value) {
+  return {mpz_limbs_read(value.get_mpz_t()), mpz_size(value.get_mpz_t())};
+}
+
+// Numbers times a power of two, cut to integers.
+class GridScaling {
+ public:
+  explicit GridScaling(long shift) : shift_(shift) {}
+
+  void operator()(Limbs& result, const Rational& value) {
+    const LimbSpan numerator = limbs_of(value.get_num());
+    const bool whole = set_magnitude(result, numerator, value.get_den());
+    if (sgn(value) >= 0) return;
+    // -(q + rest) is between -q - 1 and -q.
+    if (whole) {
+      result.negate();
+    } else {
+      result.complement();
     }
   }
-  for (auto& c : s.coordinates) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      c[i] -= lowest[i];
-      if (c[i] > s.largest) s.largest = c[i];
+
+ private:
+  // Whether nothing was cut off.
+  bool set_magnitude(Limbs& result, LimbSpan numerator, const Integer& denominator) {
+    if (numerator.count == 0) {
+      result.set_zero();
+      return true;
     }
+    const LimbSpan divisor = limbs_of(denominator);
+    const mp_limb_t top = divisor.limbs[divisor.count - 1];
+    const bool one_bit = (top & (top - 1)) == 0 &&
+                         mpz_scan1(denominator.get_mpz_t(), 0) / GMP_NUMB_BITS + 1 == divisor.count;
+    if (one_bit) {
+      const auto length = static_cast<long>(mpz_sizeinbase(denominator.get_mpz_t(), 2)) - 1;
+      return set_shifted(result, numerator, shift_ - length);
+    }
+    if (shift_ >= 0) return set_quotient(result, shifted(numerator, shift_), divisor);
+    return set_quotient(result, numerator, shifted(divisor, -shift_));
+  }
+
+  bool set_shifted(Limbs& result, LimbSpan value, long shift) {
+    if (shift >= 0) {
+      const LimbSpan longer = shifted(value, shift);
+      result.set(longer.limbs, longer.count);
+      return true;
+    }
+    const auto whole = static_cast<std::size_t>(-shift) / GMP_NUMB_BITS;
+    const auto rest = static_cast<unsigned>(-shift % GMP_NUMB_BITS);
+    if (whole >= value.count) {
+      result.set_zero();
+      return false;
+    }
+    const std::size_t count = value.count - whole;
+    mp_limb_t cut = 0;
+    if (rest == 0) {
+      result.set(value.limbs + whole, count);
+    } else {
+      shifted_.resize(count);
+      cut = mpn_rshift(shifted_.data(), value.limbs + whole, static_cast<mp_size_t>(count), rest);
+      result.set(shifted_.data(), count);
+    }
+    return cut == 0 &&
+           std::all_of(value.limbs, value.limbs + whole, [](mp_limb_t l) { return l == 0; });
+  }
+
+  bool set_quotient(Limbs& result, LimbSpan numerator, LimbSpan divisor) {
+    if (numerator.count < divisor.count) {
+      result.set_zero();
+      return false;
+    }
+    quotient_.resize(numerator.count - divisor.count + 1);
+    remainder_.resize(divisor.count);
+    mpn_tdiv_qr(quotient_.data(), remainder_.data(), 0, numerator.limbs,
+                static_cast<mp_size_t>(numerator.count), divisor.limbs,
+                static_cast<mp_size_t>(divisor.count));
+    result.set(quotient_.data(), quotient_.size());
+    return mpn_zero_p(remainder_.data(), static_cast<mp_size_t>(remainder_.size())) != 0;
+  }
+
+  // value * 2^shift, no leading zero. REQUIRES shift >= 0
+  LimbSpan shifted(LimbSpan value, long shift) {
+    const auto whole = static_cast<std::size_t>(shift) / GMP_NUMB_BITS;
+    const auto rest = static_cast<unsigned>(shift % GMP_NUMB_BITS);
+    shifted_.resize(value.count + whole + 1);
+    std::fill_n(shifted_.data(), whole, mp_limb_t{0});
+    mp_limb_t* const to = shifted_.data() + whole;
+    to[value.count] = 0;
+    if (rest == 0) {
+      std::copy_n(value.limbs, value.count, to);
+    } else {
+      to[value.count] = mpn_lshift(to, value.limbs, static_cast<mp_size_t>(value.count), rest);
+    }
+    return {shifted_.data(), shifted_.size() - (to[value.count] == 0 ? 1 : 0)};
+  }
+
+  long shift_;
+  std::vector<mp_limb_t> shifted_;
+  std::vector<mp_limb_t> quotient_;
+  std::vector<mp_limb_t> remainder_;
+};
+
+// Numbers times a common denominator of theirs.
+class ExactScaling {
+ public:
+  explicit ExactScaling(const Integer& common) : common_(common) {}
+
+  void operator()(Limbs& result, const Rational& value) {
+    if (value.get_den() == common_) {
+      result.set(value.get_num());
+      return;
+    }
+    if (value.get_den() != denominator_) {
+      denominator_ = value.get_den();
+      mpz_divexact(factor_.get_mpz_t(), common_.get_mpz_t(), denominator_.get_mpz_t());
+    }
+    mpz_mul(product_.get_mpz_t(), value.get_num_mpz_t(), factor_.get_mpz_t());
+    result.set(product_);
+  }
+
+ private:
+  const Integer& common_;
+  Integer denominator_;
+  Integer factor_;
+  Integer product_;
+};
+
+// `scaled(rational)` is an Integer, monotone; `set_scaled(limbs, rational)` the same.
+template <class Scaled, class SetScaled>
+void fill(ScaledVertices& s, const Boundary& boundary, const CoordinateRanges& ranges,
+          const Scaled& scaled, SetScaled set_scaled) {
+  std::array<Integer, 3> lowest;
+  for (std::size_t i = 0; i < 3; ++i) {
+    lowest[i] = scaled(ranges[i].lowest);
+    const Integer extent = scaled(ranges[i].highest) - lowest[i];
+    if (extent > s.largest) s.largest = extent;
   }
   s.origin = {lowest[0] * s.unit, lowest[1] * s.unit, lowest[2] * s.unit};
+  s.width = (mpz_sizeinbase(s.largest.get_mpz_t(), 2) + 2 + 59) / 60;
+  s.limbs.resize(3 * s.width * boundary.vertices.size());
+  std::vector<Limbs> origin(3, Limbs(s.width));
+  for (std::size_t i = 0; i < 3; ++i) origin[i].set(lowest[i]);
+  Limbs value(s.width);
+  mp_limb_t* to = s.limbs.data();
+  for (const Point3& vertex : boundary.vertices) {
+    for (std::size_t i = 0; i < 3; ++i, to += s.width) {
+      set_scaled(value, coordinate(vertex, i));
+      value.write_difference(to, origin[i]);
+    }
+  }
 }
 
 }  // namespace
 
+// Rounding to nearest is monotone: only equal doubles leave the order open.
 CoordinateRange coordinate_range(const Boundary& boundary, std::size_t axis) {
-  // Rounding to nearest is monotone: only equal doubles leave the order open.
   const bool has_doubles = boundary.approximate.size() == boundary.vertices.size();
-  const auto less = [&](std::size_t v, std::size_t w) {
-    if (has_doubles && boundary.approximate[v][axis] != boundary.approximate[w][axis]) {
-      return boundary.approximate[v][axis] < boundary.approximate[w][axis];
+  double least = 0;
+  double greatest = 0;
+  if (has_doubles) {
+    least = greatest = boundary.approximate.front()[axis];
+    for (const std::array<double, 3>& vertex : boundary.approximate) {
+      least = std::min(least, vertex[axis]);
+      greatest = std::max(greatest, vertex[axis]);
     }
-    return coordinate(boundary.vertices[v], axis) < coordinate(boundary.vertices[w], axis);
-  };
-  std::size_t lowest = 0;
-  std::size_t highest = 0;
-  for (std::size_t v = 1; v < boundary.vertices.size(); ++v) {
-    if (less(v, lowest)) lowest = v;
-    if (less(highest, v)) highest = v;
   }
-  return {coordinate(boundary.vertices[lowest], axis),
-          coordinate(boundary.vertices[highest], axis)};
+  const Rational* lowest = nullptr;
+  const Rational* highest = nullptr;
+  for (std::size_t v = 0; v < boundary.vertices.size(); ++v) {
+    const Rational& exact = coordinate(boundary.vertices[v], axis);
+    const auto may_be = [&](double extreme) {
+      return !has_doubles || boundary.approximate[v][axis] == extreme;
+    };
+    if (may_be(least) && (lowest == nullptr || exact < *lowest)) lowest = &exact;
+    if (may_be(greatest) && (highest == nullptr || *highest < exact)) highest = &exact;
+  }
+  return {*lowest, *highest};
 }
 
 bool has_short_common_denominator(const Boundary& boundary) {
@@ -94,27 +276,37 @@ ScaledVertices scale_vertices(const Boundary& boundary, int bits) {
     s.exact = true;
     return s;
   }
-  s.coordinates.resize(boundary.vertices.size());
+  const CoordinateRanges ranges{coordinate_range(boundary, 0), coordinate_range(boundary, 1),
+                                coordinate_range(boundary, 2)};
   if (const std::optional<Integer> common = short_common_denominator(boundary.vertices)) {
     s.exact = true;
     s.unit = Rational(Integer(1), *common);
-    for (std::size_t v = 0; v < s.coordinates.size(); ++v) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        set_scaled(s.coordinates[v][i], coordinate(boundary.vertices[v], i), *common);
-      }
-    }
+    const auto scaled = [&](const Rational& value) {
+      Integer result;
+      set_scaled(result, value, *common);
+      return result;
+    };
+    fill(s, boundary, ranges, scaled, ExactScaling(*common));
   } else {
-    const long shift = bits - extent_exponent(boundary);
+    const long shift = bits - extent_exponent(ranges);
     s.unit = power_of_two(-shift);
-    Integer scratch;
-    for (std::size_t v = 0; v < s.coordinates.size(); ++v) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        floor_shifted(s.coordinates[v][i], scratch, coordinate(boundary.vertices[v], i), shift);
-      }
-    }
+    fill(
+        s, boundary, ranges, [shift](const Rational& value) { return floor_shifted(value, shift); },
+        GridScaling(shift));
   }
-  move_to_origin(s);
   return s;
+}
+
+void set_coordinates(std::array<Integer, 3>& result, const ScaledVertices& vertices,
+                     std::uint32_t vertex) {
+  const mp_limb_t* from = vertices.of(vertex);
+  for (Integer& coordinate : result) {
+    mp_limb_t* const to =
+        mpz_limbs_write(coordinate.get_mpz_t(), static_cast<mp_size_t>(vertices.width));
+    std::copy_n(from, vertices.width, to);
+    mpz_limbs_finish(coordinate.get_mpz_t(), static_cast<mp_size_t>(vertices.width));
+    from += vertices.width;
+  }
 }
 
 }  // namespace exactcsg

@@ -5,6 +5,7 @@
 // common denominator, else cut to a grid. [Certified]
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "exactcsg/number/point.hpp"
@@ -12,15 +13,22 @@
 
 namespace exactcsg {
 
-// LAW scaled.1  vertex v is origin + unit * (coordinates[v] + e), each e in [0, 1), and 0 if exact
-// LAW scaled.2  0 <= coordinates[v] <= largest
+// LAW scaled.1  vertex v is origin + unit * (coordinates(v) + e), each e in [0, 1), and 0 if exact
+// LAW scaled.2  0 <= coordinates(v) <= largest < 2^(60 width - 2)
 struct ScaledVertices {
-  std::vector<std::array<Integer, 3>> coordinates;
+  std::size_t width = 1;         // limbs of a coordinate, few bits of which are not needed
+  std::vector<mp_limb_t> limbs;  // by vertex and axis, the lowest first
   Integer largest;
   Point3 origin{0, 0, 0};
   Rational unit;
   bool exact = false;
+
+  const mp_limb_t* of(std::uint32_t vertex) const { return limbs.data() + 3 * width * vertex; }
 };
+
+// Sets the three integers. COST: no allocation, if they have room
+void set_coordinates(std::array<Integer, 3>& result, const ScaledVertices& vertices,
+                     std::uint32_t vertex);
 
 // `bits`: the number of bits of the largest coordinate, about, if a grid is needed.
 // COST: O(vertices) integer divisions of the length of the input

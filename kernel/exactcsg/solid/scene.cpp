@@ -114,6 +114,25 @@ Plane plane_across(const Plane& facet, const Point3& p, const Point3& q) {
   return make_plane(n.x, n.y, n.z, offset);
 }
 
+SceneBounds bounds_of(const Scene& scene) {
+  SceneBounds result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.facets[axis].reserve(scene.facets.size());
+    result.primitives[axis].resize(scene.primitives.size());
+  }
+  for (const SceneFacet& facet : scene.facets) {
+    std::array<Range, 3> bounds;
+    widen(bounds, std::span(scene.corners).subspan(facet.first_corner, facet.corner_count));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      result.facets[axis].push_back(bounds[axis]);
+      Range& whole = result.primitives[axis][facet.primitive];
+      whole.lower = std::min(whole.lower, bounds[axis].lower);
+      whole.upper = std::max(whole.upper, bounds[axis].upper);
+    }
+  }
+  return result;
+}
+
 class SceneBuilder {
  public:
   explicit SceneBuilder(const Solid& solid) {
@@ -121,11 +140,13 @@ class SceneBuilder {
   }
 
   Scene finish() && {
-    Scene scene{std::move(builder_).build(), std::move(primitives_), {}, {}, std::move(tree_), {}};
+    Scene scene{
+        std::move(builder_).build(), std::move(primitives_), {}, {}, {}, std::move(tree_), {}};
     scene.root = root_cell();
     scene.facets.reserve(facets_.size());
     scene.corners.reserve(corner_total_);
     for (const PendingFacet& facet : facets_) add_facet(scene, facet);
+    scene.bounds = bounds_of(scene);
     return scene;
   }
 
@@ -142,19 +163,28 @@ class SceneBuilder {
   };
 
   PrimitiveIndex index_of(const Primitive& primitive) {
-    const Polyhedron* polyhedron = polyhedron_of(primitive);
+    const std::shared_ptr<const Polyhedron> polyhedron = shared_polyhedron_of(primitive);
     if (polyhedron == nullptr) return add_half_space(std::get<HalfSpace>(primitive.shape));
     const auto [place, is_new] =
-        known_.try_emplace(polyhedron, static_cast<PrimitiveIndex>(primitives_.size()));
+        known_.try_emplace(polyhedron.get(), static_cast<PrimitiveIndex>(primitives_.size()));
     if (is_new) {
+      builder_.add_owner(polyhedron);
       add_polyhedron(*polyhedron, std::holds_alternative<ConvexPolytope>(primitive.shape));
     }
     return place->second;
   }
 
+  static std::shared_ptr<const Polyhedron> shared_polyhedron_of(const Primitive& primitive) {
+    if (const auto* polytope = std::get_if<ConvexPolytope>(&primitive.shape)) {
+      return polytope->polyhedron;
+    }
+    if (const auto* mesh = std::get_if<PolyhedralMesh>(&primitive.shape)) return mesh->polyhedron;
+    return nullptr;
+  }
+
   PrimitiveIndex add_half_space(const HalfSpace& half_space) {
     const auto index = static_cast<PrimitiveIndex>(primitives_.size());
-    primitives_.push_back({true, 1});
+    primitives_.push_back({true, static_cast<FacetIndex>(facets_.size()), 1});
     facets_.push_back({index, builder_.add_plane(half_space.plane), 0, 0});
     const Plane& plane = half_space.plane;
     for (const Integer* n : {&plane.a, &plane.b, &plane.c}) {
@@ -167,13 +197,14 @@ class SceneBuilder {
 
   void add_polyhedron(const Polyhedron& polyhedron, bool convex) {
     const auto index = static_cast<PrimitiveIndex>(primitives_.size());
-    primitives_.push_back({convex, static_cast<std::uint32_t>(polyhedron.facets.size())});
+    primitives_.push_back({convex, static_cast<FacetIndex>(facets_.size()),
+                           static_cast<std::uint32_t>(polyhedron.facets.size())});
     std::vector<PointId> points;
     std::vector<Double3> near;
     points.reserve(polyhedron.vertices.size());
     near.reserve(polyhedron.vertices.size());
     for (const Point3& vertex : polyhedron.vertices) {
-      points.push_back(builder_.add_point(vertex));
+      points.push_back(builder_.add_owned_point(vertex));
       const Vertex rounded = builder_.vertex(points.back());
       near.push_back({rounded.x, rounded.y, rounded.z});
       extend_bounds(near.back(), rounded.error);
@@ -306,7 +337,8 @@ class SceneBuilder {
       if (split_signs(geometry, polygon, wall(steepest, upper), signs, statistics) ==
           PlaneSplit::Both) {
         kept.clear();
-        append_part(geometry, polygon, plane, wall(steepest, upper), signs, inside, kept);
+        PolygonCut(geometry, polygon, plane, wall(steepest, upper), signs)
+            .append_part(polygon, signs, inside, kept);
         polygon.swap(kept);
       }
     }
@@ -332,6 +364,18 @@ class SceneBuilder {
 };
 
 }  // namespace
+
+void widen(std::array<Range, 3>& bounds, std::span<const Corner> corners) {
+  for (const Corner& corner : corners) {
+    const std::array<double, 3> position{corner.vertex.x, corner.vertex.y, corner.vertex.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // Widened by two units in the last place, for the rounding of this very sum.
+      const double slack = corner.vertex.error + 0x1p-51 * std::abs(position[axis]);
+      bounds[axis].lower = std::min(bounds[axis].lower, position[axis] - slack);
+      bounds[axis].upper = std::max(bounds[axis].upper, position[axis] + slack);
+    }
+  }
+}
 
 Scene make_scene(const Solid& solid) { return SceneBuilder(solid).finish(); }
 

@@ -9,6 +9,8 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "exactcsg/csg/flat_tree.hpp"
@@ -43,16 +45,36 @@ struct SceneFacet {
 
 struct ScenePrimitive {
   bool convex = true;  // half-spaces and convex polytopes; otherwise a closed mesh
+  FacetIndex first_facet = 0;
   std::uint32_t facet_count = 0;
 };
+
+struct Range {
+  double lower = std::numeric_limits<double>::infinity();
+  double upper = -std::numeric_limits<double>::infinity();
+};
+
+// Along each axis, bounds that the true corners do not exceed.
+struct SceneBounds {
+  std::array<std::vector<Range>, 3> facets;
+  std::array<std::vector<Range>, 3> primitives;
+};
+
+// Widens `bounds` so that the true corners do not exceed them.
+void widen(std::array<Range, 3>& bounds, std::span<const Corner> corners);
 
 struct Scene {
   Geometry geometry;
   std::vector<ScenePrimitive> primitives;
   std::vector<SceneFacet> facets;
   std::vector<Corner> corners;  // of all facets
+  SceneBounds bounds;
   PrunedTree tree;
   Cell root;
+
+  std::span<const Corner> corners_of(FacetIndex facet) const {
+    return std::span(corners).subspan(facets[facet].first_corner, facets[facet].corner_count);
+  }
 };
 
 // Occurrences of one handle in the tree become one primitive.

@@ -425,15 +425,17 @@ class ShellVolumes {
 
   static Integer loop_volume(const ScaledVertices& vertices, const std::vector<Index>& loop) {
     std::array<Integer, 3> area;
+    std::array<Integer, 3> p;
+    std::array<Integer, 3> q;
+    set_coordinates(q, vertices, loop.front());
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      const auto& p = vertices.coordinates[loop[k]];
-      const auto& q = vertices.coordinates[loop[(k + 1) % loop.size()]];
+      p.swap(q);
+      set_coordinates(q, vertices, loop[(k + 1) % loop.size()]);
       for (std::size_t i = 0; i < 3; ++i) {
         area[i] += p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3];
       }
     }
-    const auto& a = vertices.coordinates[loop.front()];
-    return a[0] * area[0] + a[1] * area[1] + a[2] * area[2];
+    return q[0] * area[0] + q[1] * area[1] + q[2] * area[2];
   }
 
   const Boundary& boundary_;

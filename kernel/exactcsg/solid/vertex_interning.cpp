@@ -33,41 +33,31 @@ KeyInterval key_of(const Vertex& v, std::uint32_t item) {
   return {key - spread, key + spread, item};
 }
 
-// Every meeting point, and of each input point, of which there are many copies, the first one.
-struct Candidates {
-  std::vector<std::uint32_t> items;
-  std::vector<std::uint32_t> first_of_point;  // by id; none: the point does not occur
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-};
-
-Candidates candidates_of(const Geometry& geometry, std::span<const Vertex* const> vertices) {
-  Candidates result;
-  result.first_of_point.assign(geometry.point_count(), Candidates::none);
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    if (vertices[i]->is_point) {
-      std::uint32_t& first = result.first_of_point[static_cast<std::uint32_t>(vertices[i]->point)];
-      if (first != Candidates::none) continue;
-      first = i;
-    }
-    result.items.push_back(i);
-  }
-  return result;
-}
-
 }  // namespace
 
-InternedVertices intern(const Geometry& geometry, std::span<const Vertex* const> vertices,
+InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices,
                         TierStatistics& statistics) {
+  const auto meeting_points = static_cast<std::uint32_t>(vertices.meeting_points.size());
   InternedVertices result;
-  result.number.resize(vertices.size());
-  const Candidates candidates = candidates_of(geometry, vertices);
+  result.number_of_meeting_point.resize(meeting_points);
+  result.number_of_point.resize(vertices.has_point.size());
+  // Items below `meeting_points` are these, the others are points.
   std::vector<KeyInterval> keys;
-  keys.reserve(candidates.items.size());
-  for (const std::uint32_t i : candidates.items) keys.push_back(key_of(*vertices[i], i));
+  keys.reserve(meeting_points + vertices.has_point.size());
+  for (std::uint32_t i = 0; i < meeting_points; ++i) {
+    keys.push_back(key_of(*vertices.meeting_points[i], i));
+  }
+  for (std::uint32_t id = 0; id < vertices.has_point.size(); ++id) {
+    if (!vertices.has_point[id]) continue;
+    keys.push_back(key_of(geometry.vertex(PointId{id}), meeting_points + id));
+  }
+  result.distinct.reserve(keys.size());
   for_each_cluster(keys, [&](std::span<const KeyInterval> cluster) {
     const std::size_t first = result.distinct.size();
     for (const KeyInterval& key : cluster) {
-      const Vertex& vertex = *vertices[key.item];
+      const bool is_point = key.item >= meeting_points;
+      const Vertex vertex = is_point ? geometry.vertex(PointId{key.item - meeting_points})
+                                     : *vertices.meeting_points[key.item];
       const auto find = [&](auto same) {
         return std::find_if(result.distinct.begin() + static_cast<std::ptrdiff_t>(first),
                             result.distinct.end(), same);
@@ -78,19 +68,19 @@ InternedVertices intern(const Geometry& geometry, std::span<const Vertex* const>
           return may_coincide(vertex, other) && geometry.same_position(vertex, other, statistics);
         });
       }
-      result.number[key.item] = static_cast<std::uint32_t>(known - result.distinct.begin());
+      const auto number = static_cast<std::uint32_t>(known - result.distinct.begin());
+      if (is_point) {
+        result.number_of_point[key.item - meeting_points] = number;
+      } else {
+        result.number_of_meeting_point[key.item] = number;
+      }
       if (known == result.distinct.end()) {
         result.distinct.push_back(vertex);
-      } else if (vertex.is_point && !known->is_point) {
+      } else if (is_point && !known->is_point) {
         *known = vertex;
       }
     }
   });
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    if (!vertices[i]->is_point) continue;
-    const auto id = static_cast<std::uint32_t>(vertices[i]->point);
-    result.number[i] = result.number[candidates.first_of_point[id]];
-  }
   return result;
 }
 

@@ -52,14 +52,21 @@ void for_each_cluster(std::vector<KeyInterval>& intervals, Visit visit) {
   }
 }
 
-struct InternedVertices {
-  std::vector<std::uint32_t> number;  // of each vertex given
-  std::vector<Vertex> distinct;       // by number; an input point where one is among the equals
+// Corners of pieces: meeting points, each as often as it occurs, and input points by id.
+struct CornerVertices {
+  std::vector<const Vertex*> meeting_points;
+  std::vector<bool> has_point;  // by id, of all points of the geometry
 };
 
-// LAW interning.1  number[i] == number[j] iff vertices i and j have equal exact positions.
+struct InternedVertices {
+  std::vector<std::uint32_t> number_of_meeting_point;  // of each one given
+  std::vector<std::uint32_t> number_of_point;          // by id, of those that occur
+  std::vector<Vertex> distinct;  // by number; an input point where one is among the equals
+};
+
+// LAW interning.1  two numbers are equal iff the exact positions are.
 // COST: O(n log n) doubles; exact only where certified positions overlap.
-InternedVertices intern(const Geometry& geometry, std::span<const Vertex* const> vertices,
+InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices,
                         TierStatistics& statistics);
 
 }  // namespace exactcsg

@@ -28,26 +28,15 @@ void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers)
   }
   std::vector<bool> done(scene.facets.size(), false);
   for (PieceBuffer& buffer : buffers) {
-    if (std::none_of(buffer.pieces.begin(), buffer.pieces.end(),
-                     [&](const BoundaryPiece& piece) { return is_whole(shares, piece); })) {
-      continue;
-    }
-    PieceBuffer restored;
-    for (const BoundaryPiece& piece : buffer.pieces) {
-      std::span<const Corner> corners =
-          std::span(buffer.corners).subspan(piece.first_corner, piece.corner_count);
-      std::uint64_t share = piece.share;
-      if (is_whole(shares, piece)) {
-        if (done[piece.facet]) continue;
-        done[piece.facet] = true;
-        const SceneFacet& facet = scene.facets[piece.facet];
-        corners = std::span(scene.corners).subspan(facet.first_corner, facet.corner_count);
-        share = facet_share::whole;
-      }
-      restored.add(piece.plane, piece.corner_sense, piece.facet, share, corners);
-      restored.pieces.back().isolated = piece.isolated;
-    }
-    buffer = std::move(restored);
+    const auto restore = [&](BoundaryPiece& piece) {
+      if (!is_whole(shares, piece)) return false;
+      if (done[piece.facet]) return true;
+      done[piece.facet] = true;
+      piece.share = facet_share::whole;
+      return false;
+    };
+    buffer.pieces.erase(std::remove_if(buffer.pieces.begin(), buffer.pieces.end(), restore),
+                        buffer.pieces.end());
   }
 }
 

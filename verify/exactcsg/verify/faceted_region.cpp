@@ -21,6 +21,7 @@ namespace exactcsg::verify {
 namespace {
 
 using csg::BooleanOperator;
+using io::openmc::HalfSpaceRegion;
 using io::openmc::Region;
 using io::openmc::Surface;
 using io::openmc::SurfaceSide;
@@ -63,6 +64,14 @@ Polynomial quadric_of(const std::vector<Rational>& c) {
   }
   f.constant = c[9];
   return f;
+}
+
+// nullopt: a torus, or one nappe of a cone.
+std::optional<Polynomial> polynomial_of(const io::openmc::HalfSpace& half_space) {
+  const auto* quadric = half_space.quadric();
+  if (quadric == nullptr || quadric->nappe()) return std::nullopt;
+  const auto& f = quadric->polynomial();
+  return Polynomial{f.square(), f.linear().normal, f.linear().constant};
 }
 
 // nullopt: a torus.
@@ -323,9 +332,8 @@ Polyhedron ball(std::uint32_t segments) {
   return result;
 }
 
-// A factor that takes every side of the polygon out of the unit circle.
-Rational enlargement_of_circle(std::uint32_t segments) {
-  const std::vector<CirclePoint> points = circle(segments);
+// A factor that takes every side of the polygon, which is round the origin, out of the unit circle.
+Rational enlargement_of(const std::vector<CirclePoint>& points) {
   Rational nearest = 1;  // squared
   for (std::size_t i = 0; i < points.size(); ++i) {
     const CirclePoint& p = points[i];
@@ -348,6 +356,107 @@ Rational enlargement_of(const Polyhedron& polyhedron) {
     nearest = std::min(nearest, Rational(Rational(plane.d * plane.d) / square));
   }
   return square_root(Rational(1 / nearest)).upper;
+}
+
+// ---- polyhedra in and round a torus ------------------------------------------------------------
+//
+// A torus is {((rho - major) / across)^2 + (z / along)^2 <= 1}. A ring has the same profile, a
+// polygon, on every chord of a polygon in the unit circle: with s = 1 on the chord, its points have
+// the distance rho = s |p| from the axis, p a point of the chord, which is between s / f and s if
+// the polygon enlarged by f is round the circle. So a ring is within the torus if each corner of
+// its profile is with s as well as with s / f for rho, since the torus's profile is convex; and a
+// ring is round the torus if its profile has the points with s = rho and all up to s = f rho.
+
+struct RingSize {
+  Rational major, along, across;
+};
+
+// From the lowest on the outside up and back along the hole.
+using Profile = std::vector<CirclePoint>;
+
+// x > 0, upwards: half of a polygon in the unit circle, the other half of which is its mirror
+// image.
+std::vector<CirclePoint> half_circle(std::uint32_t segments) {
+  std::vector<CirclePoint> points;
+  for (const CirclePoint& p : circle(segments)) {
+    if (p.x > 0) points.push_back(p);
+  }
+  std::sort(points.begin(), points.end(),
+            [](const CirclePoint& a, const CirclePoint& b) { return a.y < b.y; });
+  return points;
+}
+
+Profile with_mirrored(Profile outside, std::vector<CirclePoint> inside) {
+  outside.insert(outside.end(), inside.rbegin(), inside.rend());
+  return outside;
+}
+
+// Empty: too thin for the polygon.
+Profile inner_profile(const RingSize& size, const std::vector<CirclePoint>& half,
+                      const Rational& factor) {
+  Profile outside;
+  std::vector<CirclePoint> inside;
+  for (const CirclePoint& p : half) {
+    const Rational outer = size.major + size.across * p.x;
+    const Rational inner = factor * (size.major - size.across * p.x);
+    if (inner >= outer) continue;
+    outside.push_back({outer, size.along * p.y});
+    inside.push_back({inner, size.along * p.y});
+  }
+  return outside.size() < 2 ? Profile() : with_mirrored(std::move(outside), std::move(inside));
+}
+
+// Empty: the hole is too narrow for the polygon, or there is none.
+Profile outer_profile(const RingSize& size, const std::vector<CirclePoint>& half,
+                      const Rational& factor) {
+  std::vector<CirclePoint> left;
+  for (const CirclePoint& p : half) left.push_back({Rational(-p.x), p.y});
+  const Rational enlargement = enlargement_of(with_mirrored(half, left));
+  Profile outside;
+  std::vector<CirclePoint> inside;
+  for (const CirclePoint& p : half) {
+    const Rational reach = size.across * enlargement * p.x;
+    if (reach >= size.major) return {};
+    const Rational height = size.along * enlargement * p.y;
+    outside.push_back({Rational(factor * (size.major + reach)), height});
+    inside.push_back({Rational(size.major - reach), height});
+  }
+  return with_mirrored(std::move(outside), std::move(inside));
+}
+
+Polyhedron ring(const std::vector<CirclePoint>& directions, const Profile& profile) {
+  Polyhedron result;
+  for (const CirclePoint& direction : directions) {
+    for (const CirclePoint& p : profile) {
+      result.vertices.push_back({Rational(direction.x * p.x), Rational(direction.y * p.x), p.y});
+    }
+  }
+  const auto count = static_cast<std::uint32_t>(profile.size());
+  const auto all = static_cast<std::uint32_t>(result.vertices.size());
+  for (std::uint32_t first = 0; first < all; first += count) {
+    const std::uint32_t second = (first + count) % all;
+    for (std::uint32_t j = 0; j < count; ++j) {
+      const std::uint32_t next = (j + 1) % count;
+      result.facets.push_back({first + j, second + j, second + next, first + next});
+    }
+  }
+  return result;
+}
+
+// From a torus round the third axis and the origin. REQUIRES a torus
+AffineMap place_of_torus(const Surface& surface) {
+  const std::size_t axis = axis_of(surface);
+  AffineMap map;
+  for (std::size_t i = 0; i < 3; ++i) {
+    map.m[(axis + 1 + i) % 3][i] = 1;
+    map.m[i][3] = surface.coefficients[i];
+  }
+  return map;
+}
+
+RingSize size_of_torus(const Surface& surface) {
+  const std::vector<Rational>& c = surface.coefficients;
+  return {c[3], c[4], c[5]};
 }
 
 // ---- surfaces within a box --------------------------------------------------------------------
@@ -377,23 +486,45 @@ Solid combined(BooleanOperator operation, Solid a, Solid b) {
   return Solid::compose(operation, std::move(operands));
 }
 
+// "-id" or "id" of a surface as the format describes it, or a half-space of a window.
+struct Side {
+  const Surface* surface = nullptr;
+  const io::openmc::HalfSpace* half_space = nullptr;
+  bool is_positive = false;
+
+  std::optional<Polynomial> polynomial() const {
+    return surface != nullptr ? polynomial_of(*surface) : polynomial_of(*half_space);
+  }
+};
+using SideRegion = csg::BooleanTree<Side>;
+
+SideRegion sides_of(const io::openmc::Model& model, const Region& region) {
+  return csg::map(region, [&](const SurfaceSide& side) {
+    return Side{&model.surfaces[side.surface], nullptr, side.is_positive};
+  });
+}
+
+bool is_complement(const io::openmc::HalfSpace& half_space) {
+  return half_space.visit([](const auto& kind) { return kind.is_complement(); });
+}
+
 class Faceter {
  public:
-  Faceter(const io::openmc::Model& model, const Box& box, std::uint32_t segments)
-      : model_(model), segments_(segments), corners_(corners_of(box)) {
+  Faceter(const Box& box, std::uint32_t segments) : segments_(segments), corners_(corners_of(box)) {
     block_ = make_box(corners_.front(), corners_.back());
     solid_ = Solid::primitive(Primitive{block_});
   }
 
-  FacetedRegion operator()(const Region& region) {
+  FacetedRegion operator()(const SideRegion& region) {
     FacetedRegion result = csg::traverse(
-        region, [&](const SurfaceSide& side) { return of_side(side); },
+        region, [&](const Side& side) { return of_side(side); },
         [](const FacetedRegion& a, BooleanOperator operation, const FacetedRegion& b) {
           return combine(a, operation, b);
         },
-        csg::FullEmptyResult{FacetedRegion{solid_, solid_}, FacetedRegion{}});
+        csg::FullEmptyResult{FacetedRegion{solid_, solid_, true}, FacetedRegion{}});
     result.lower = combined(BooleanOperator::Intersection, result.lower, solid_);
     result.upper = combined(BooleanOperator::Intersection, result.upper, solid_);
+    result.is_exact = is_exact_;
     return result;
   }
 
@@ -403,9 +534,9 @@ class Faceter {
     switch (operation) {
       case BooleanOperator::Union:
       case BooleanOperator::Intersection:
-        return {combined(operation, a.lower, b.lower), combined(operation, a.upper, b.upper)};
+        return {combined(operation, a.lower, b.lower), combined(operation, a.upper, b.upper), true};
       case BooleanOperator::Difference:
-        return {subtract(a.lower, b.upper), subtract(a.upper, b.lower)};
+        return {subtract(a.lower, b.upper), subtract(a.upper, b.lower), true};
       case BooleanOperator::SymmetricDifference:
         break;
     }
@@ -413,23 +544,53 @@ class Faceter {
                    combine(b, BooleanOperator::Difference, a));
   }
 
-  FacetedRegion of_side(const SurfaceSide& side) {
-    const auto found = sides_.find({side.surface, side.is_positive});
-    if (found != sides_.end()) return found->second;
-    const Polynomial f = *polynomial_of(model_.surfaces[side.surface]);
-    const NormalForm form = *normal_form(f);
+  FacetedRegion of_side(const Side& side) {
+    const std::pair key{static_cast<const void*>(side.surface), side.is_positive};
+    if (side.surface != nullptr) {
+      const auto found = sides_.find(key);
+      if (found != sides_.end()) return found->second;
+    }
     FacetedRegion result;
+    if (const std::optional<Polynomial> f = side.polynomial()) {
+      result = of_polynomial(*f, side.is_positive);
+    } else {
+      result = of_torus(*side.surface);
+      if (side.is_positive) result = outside(result);
+    }
+    if (side.surface != nullptr) sides_.emplace(key, result);
+    return result;
+  }
+
+  FacetedRegion of_polynomial(const Polynomial& f, bool is_positive) {
+    const NormalForm form = *normal_form(f);
     if (form.form == Form::Plane) {
       const Plane plane = make_plane(f.linear[0], f.linear[1], f.linear[2], f.constant);
-      result.lower = result.upper = of_plane(side.is_positive ? opposite(plane) : plane);
-    } else {
-      result = of_curved(form);
-      if (side.is_positive != form.is_negated) {
-        result = {subtract(solid_, result.upper), subtract(solid_, result.lower)};
-      }
+      const Solid solid = of_plane(is_positive ? opposite(plane) : plane);
+      return {solid, solid, true};
     }
-    sides_.emplace(std::pair{side.surface, side.is_positive}, result);
-    return result;
+    is_exact_ = false;
+    const FacetedRegion result = of_curved(form);
+    return is_positive != form.is_negated ? outside(result) : result;
+  }
+
+  FacetedRegion outside(const FacetedRegion& inside) const {
+    return {subtract(solid_, inside.upper), subtract(solid_, inside.lower), inside.is_exact};
+  }
+
+  FacetedRegion of_torus(const Surface& surface) {
+    is_exact_ = false;
+    const RingSize size = size_of_torus(surface);
+    const AffineMap map = place_of_torus(surface);
+    const std::vector<CirclePoint> directions = circle(2 * segments_);
+    const Rational factor = enlargement_of(directions);
+    const std::vector<CirclePoint> half = half_circle(segments_);
+    const auto solid = [&](const Profile& profile) {
+      if (profile.empty()) return Solid::empty();
+      return Solid::primitive(
+          apply(map, Primitive{make_mesh_unchecked(ring(directions, profile))}));
+    };
+    return {solid(inner_profile(size, half, factor)), solid(outer_profile(size, half, factor)),
+            false};
   }
 
   // The part of the box in the half-space.
@@ -478,16 +639,16 @@ class Faceter {
       const ConvexPolytope polytope = make_convex_polytope(local);
       const Rational factor = enlargement_of(local);
       return {stretched(polytope, axes[0].lower, axes[1].lower, axes[2].lower),
-              stretched(polytope, along(0, factor), along(1, factor), along(2, factor))};
+              stretched(polytope, along(0, factor), along(1, factor), along(2, factor)), false};
     }
     // Cheap enough for four times the sharpness.
     const std::uint32_t segments = 2 * segments_;
-    const Rational factor = enlargement_of_circle(segments);
+    const Rational factor = enlargement_of(circle(segments));
     const Rational end = reach(form);
     if (form.form == Form::Cylinder) {
       const ConvexPolytope polytope = make_convex_polytope(prism(segments));
       return {stretched(polytope, axes[0].lower, axes[1].lower, end),
-              stretched(polytope, along(0, factor), along(1, factor), end)};
+              stretched(polytope, along(0, factor), along(1, factor), end), false};
     }
     const ConvexPolytope polytope = make_convex_polytope(pyramid(segments));
     const auto nappes = [&](const Rational& x, const Rational& y) {
@@ -495,35 +656,56 @@ class Faceter {
                       stretched(polytope, Rational(x * end), Rational(y * end), end),
                       stretched(polytope, Rational(x * end), Rational(y * end), Rational(-end)));
     };
-    return {nappes(axes[0].lower, axes[1].lower), nappes(along(0, factor), along(1, factor))};
+    return {nappes(axes[0].lower, axes[1].lower), nappes(along(0, factor), along(1, factor)),
+            false};
   }
 
-  const io::openmc::Model& model_;
   std::uint32_t segments_;
   std::vector<Point3> corners_;
   ConvexPolytope block_;
   Solid solid_;
-  std::map<std::pair<io::openmc::Index, bool>, FacetedRegion> sides_;
+  bool is_exact_ = true;
+  std::map<std::pair<const void*, bool>, FacetedRegion> sides_;
 };
+
+// Whether the surface is a torus that has polyhedra with so many segments round it.
+bool has_ring(const Surface& surface, std::uint32_t segments) {
+  return is_aligned(surface, "torus") &&
+         !outer_profile(size_of_torus(surface), half_circle(segments),
+                        enlargement_of(circle(2 * segments)))
+              .empty();
+}
 
 }  // namespace
 
-std::optional<std::string> reason_not_faceted(const io::openmc::Model& model,
-                                              const Region& region) {
+std::optional<std::string> reason_not_faceted(const io::openmc::Model& model, const Region& region,
+                                              std::uint32_t segments,
+                                              const HalfSpaceRegion& window) {
   std::optional<std::string> reason;
   csg::for_each_primitive(region, [&](const SurfaceSide& side) {
     const Surface& surface = model.surfaces[side.surface];
     const std::optional<Polynomial> f = reason ? std::nullopt : polynomial_of(surface);
+    if (reason || (f && normal_form(*f)) || (!f && has_ring(surface, segments))) return;
+    reason = fmt::format(
+        "surface {}, a {}, is no plane, sphere, cylinder, cone, ellipsoid or torus with a hole",
+        surface.id, surface.type);
+  });
+  csg::for_each_primitive(window, [&](const io::openmc::HalfSpace& half_space) {
+    const std::optional<Polynomial> f = reason ? std::nullopt : polynomial_of(half_space);
     if (reason || (f && normal_form(*f))) return;
-    reason = fmt::format("surface {}, a {}, is no plane, sphere, cylinder, cone or ellipsoid",
-                         surface.id, surface.type);
+    reason =
+        "a surface above, through which it is seen, is no plane, sphere, cylinder, cone or "
+        "ellipsoid";
   });
   return reason;
 }
 
 FacetedRegion faceted(const io::openmc::Model& model, const Region& region, const Box& box,
-                      std::uint32_t segments) {
-  return Faceter(model, box, segments)(region);
+                      std::uint32_t segments, const HalfSpaceRegion& window) {
+  const SideRegion above = csg::map(window, [](const io::openmc::HalfSpace& half_space) {
+    return Side{nullptr, &half_space, is_complement(half_space)};
+  });
+  return Faceter(box, segments)(csg::intersect(sides_of(model, region), above));
 }
 
 }  // namespace exactcsg::verify

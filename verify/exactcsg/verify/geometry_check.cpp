@@ -91,7 +91,7 @@ class Checker {
     std::set<Index> surfaces;
     for (const Index cell : model_.universes[universe].cells) {
       csg::for_each_primitive(model_.cells[cell].region, [&](const SurfaceSide& side) {
-        if (model_.surfaces[side.surface].boundary != Boundary::Transmission) {
+        if (model_.surfaces[side.surface].boundary != io::openmc::Boundary::Transmission) {
           surfaces.insert(side.surface);
         }
       });
@@ -129,7 +129,7 @@ class Checker {
     const HalfSpaceRegion cells =
         csg::intersect(composed(csg::BooleanOperator::Union, regions), visible.window);
     const Proof found = measure::find_combinations(std::span<const HalfSpaceRegion>(sides), cells,
-                                                   visible.box, limits(most_combinations));
+                                                   *visible.box, limits(most_combinations));
     look_at_progress();
     if (const auto* some = std::get_if<measure::Refuted>(&found)) {
       if (!some->is_complete) add_undecided(some->rest, visible, view.universe, line);
@@ -146,7 +146,7 @@ class Checker {
     const std::vector<HalfSpaceRegion> regions = regions_of(view.universe);
     const HalfSpaceRegion within = inhabited(view, regions, line);
     const Proof proof = measure::prove_partition(std::span<const HalfSpaceRegion>(regions), within,
-                                                 view.visible.box, limits(options_.overlaps));
+                                                 *view.visible.box, limits(options_.overlaps));
     look_at_progress();
     if (const auto* refuted = std::get_if<measure::Refuted>(&proof)) {
       for (const measure::Witness& witness : refuted->witnesses) add_defect(witness, view, line);
@@ -182,8 +182,9 @@ class Checker {
   void check(const OutsideView& outside) {
     CheckedPart& line = part(StepKind::Lattice, outside.lattice, outside.visible);
     if (line.gaps > 0) return;
-    const Proof proof = measure::find_combinations(
-        std::span<const HalfSpaceRegion>(), outside.visible.window, outside.visible.box, limits(1));
+    const Proof proof =
+        measure::find_combinations(std::span<const HalfSpaceRegion>(), outside.visible.window,
+                                   *outside.visible.box, limits(1));
     look_at_progress();
     if (const auto* found = std::get_if<measure::Refuted>(&proof)) {
       ++line.gaps;
@@ -226,6 +227,12 @@ class Checker {
     return cells;
   }
 
+  bool holds_nothing(std::size_t universe) const {
+    const std::vector<Index>& cells = model_.universes[universe].cells;
+    return std::all_of(cells.begin(), cells.end(),
+                       [&](Index cell) { return model_.cells[cell].region.is_empty(); });
+  }
+
   void find_unused(const VisibleUniverses& visible) {
     std::vector<bool> is_used(model_.surfaces.size(), false);
     for (const Cell& cell : model_.cells) {
@@ -234,6 +241,8 @@ class Checker {
     }
     std::vector<bool> is_seen(model_.universes.size(), false);
     for (const View& view : visible.views) is_seen[view.universe] = true;
+    // Elements that do not exist are not missed.
+    for (std::size_t i = 0; i < is_seen.size(); ++i) is_seen[i] = is_seen[i] || holds_nothing(i);
     const auto missing = [](const std::vector<bool>& there) {
       std::vector<Index> result;
       for (std::size_t i = 0; i < there.size(); ++i) {

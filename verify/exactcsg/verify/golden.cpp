@@ -4,57 +4,37 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "exactcsg/number/enclosure.hpp"
 #include "exactcsg/solid/measures.hpp"
 #include "exactcsg/support/error.hpp"
+#include "exactcsg/verify/golden_document.hpp"
 
 namespace exactcsg::verify {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = GoldenJson;
 
 constexpr const char* schema = "exactcsg.golden/1";
 constexpr int digits = 17;
 constexpr std::size_t longest_fraction = 1000;
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string found, std::string expected) {
-  throw Error(ErrorId::GoldenFile,
-              {std::move(found), std::move(expected), SourcePosition{file.string(), 0, 0}});
-}
-
-template <class Value>
-Value field(const std::filesystem::path& file, const std::string& name, const Json& entry,
-            const char* key) {
-  const auto found = entry.find(key);
-  if (found == entry.end()) {
-    fail(file, fmt::format("entry '{}' without '{}'", name, key), "every field of the schema");
-  }
-  try {
-    return found->template get<Value>();
-  } catch (const nlohmann::json::exception& e) {
-    fail(file, fmt::format("'{}' of entry '{}': {}", key, name, e.what()), "the schema's type");
-  }
-}
-
 GoldenEntry entry_of(const std::filesystem::path& file, const std::string& name,
                      const Json& value) {
-  if (!value.is_object()) fail(file, fmt::format("entry '{}' is no object", name), "an object");
   GoldenEntry entry;
-  entry.digest = field<std::string>(file, name, value, "digest");
-  entry.volume = field<std::string>(file, name, value, "volume");
-  const auto exact = field<Json>(file, name, value, "volume_exact");
+  entry.digest = golden_field<std::string>(file, name, value, "digest");
+  entry.volume = golden_field<std::string>(file, name, value, "volume");
+  const auto exact = golden_field<Json>(file, name, value, "volume_exact");
   if (!exact.is_null()) {
-    entry.volume_exact = field<std::string>(file, name, value, "volume_exact");
+    entry.volume_exact = golden_field<std::string>(file, name, value, "volume_exact");
   }
-  entry.area = field<std::string>(file, name, value, "area");
-  entry.vertices = field<std::uint64_t>(file, name, value, "vertices");
-  entry.edges = field<std::uint64_t>(file, name, value, "edges");
-  entry.faces = field<std::uint64_t>(file, name, value, "faces");
-  entry.components = field<std::uint64_t>(file, name, value, "components");
-  entry.genus = field<std::int64_t>(file, name, value, "genus");
-  entry.source = field<std::string>(file, name, value, "source");
+  entry.area = golden_field<std::string>(file, name, value, "area");
+  entry.vertices = golden_field<std::uint64_t>(file, name, value, "vertices");
+  entry.edges = golden_field<std::uint64_t>(file, name, value, "edges");
+  entry.faces = golden_field<std::uint64_t>(file, name, value, "faces");
+  entry.components = golden_field<std::uint64_t>(file, name, value, "components");
+  entry.genus = golden_field<std::int64_t>(file, name, value, "genus");
+  entry.source = golden_field<std::string>(file, name, value, "source");
   return entry;
 }
 
@@ -98,22 +78,9 @@ GoldenEntry golden_entry(const Boundary& boundary, std::string source) {
 }
 
 GoldenFile read_golden(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(ErrorId::FileNotReadable, {file.string(), "a golden file"});
-  Json document;
-  try {
-    document = Json::parse(in);
-  } catch (const nlohmann::json::exception& e) {
-    fail(file, e.what(), "JSON");
-  }
-  if (!document.is_object() || !document.contains("schema") || document["schema"] != schema) {
-    fail(file, "no schema of a golden file", fmt::format("\"schema\": \"{}\"", schema));
-  }
-  if (!document.contains("models") || !document["models"].is_object()) {
-    fail(file, "no object 'models'", "\"models\": {name: entry}");
-  }
   GoldenFile golden;
-  for (const auto& [name, value] : document["models"].items()) {
+  const Json models = read_golden_models(file, schema);
+  for (const auto& [name, value] : models.items()) {
     golden.models.emplace(name, entry_of(file, name, value));
   }
   return golden;

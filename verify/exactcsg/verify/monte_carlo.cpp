@@ -160,7 +160,8 @@ class PlainGeometry {
       const bool is_y = lattice_->kind == LatticeKind::HexagonalY;
       const double across = (is_y ? p[0] - origin_[0] : p[1] - origin_[1]) / pitch_[0];
       const double straight = (is_y ? p[1] - origin_[1] : p[0] - origin_[0]) / pitch_[0];
-      constexpr double half_root = std::numbers::sqrt3 / 2;
+      const double half_root = lattice_->row_distance ? lattice_->row_distance->get_d() / pitch_[0]
+                                                      : std::numbers::sqrt3 / 2;
       double least = HUGE_VAL;
       Position local{};
       const double column = std::round(across / half_root);

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-#include "exactcsg/measure/decimal_bounds.hpp"
+#include "exactcsg/verify/volume_bounds.hpp"
 
 namespace exactcsg::verify {
 
@@ -21,27 +21,18 @@ Enclosure enclosure_of(const VolumeSum& sum) {
   return {Rational(value - error), Rational(value + error)};
 }
 
-Rational gap_between(const Enclosure& a, const Enclosure& b) {
-  const Rational gap = std::max(Rational(a.lower - b.upper), Rational(b.lower - a.upper));
-  return std::max(gap, Rational(0));
-}
-
-std::string text_of(const Enclosure& value) {
-  constexpr int digits = 8;
-  const measure::DecimalBounds bounds = measure::decimal_bounds(value, digits);
-  return fmt::format("{} to {}", bounds.lower, bounds.upper);
-}
-
 }  // namespace
 
 NefVolume nef_volume(const io::openmc::Model& model, const io::openmc::Region& region,
-                     const domain::Box<3>& box, std::uint32_t segments, const NefLimits& limits) {
+                     const domain::Box<3>& box, std::uint32_t segments, const NefLimits& limits,
+                     const io::openmc::HalfSpaceRegion& window) {
   using Clock = std::chrono::steady_clock;
-  if (const std::optional<std::string> reason = reason_not_faceted(model, region)) {
+  if (const std::optional<std::string> reason =
+          reason_not_faceted(model, region, segments, window)) {
     return {std::nullopt, *reason};
   }
   const auto start = Clock::now();
-  const FacetedRegion facets = faceted(model, region, box, segments);
+  const FacetedRegion facets = faceted(model, region, box, segments, window);
   Enclosure bounds;
   for (const bool is_upper : {false, true}) {
     NefLimits left = limits;
@@ -52,6 +43,7 @@ NefVolume nef_volume(const io::openmc::Model& model, const io::openmc::Region& r
     const NefOutcome outcome = run_nef(is_upper ? facets.upper : facets.lower, {}, left);
     if (!outcome.answered) return {std::nullopt, outcome.reason};
     const Enclosure volume = enclosure_of(volume_sum(outcome.result.complex));
+    if (facets.is_exact) return {volume, ""};
     (is_upper ? bounds.upper : bounds.lower) = is_upper ? volume.upper : volume.lower;
   }
   return {std::move(bounds), ""};

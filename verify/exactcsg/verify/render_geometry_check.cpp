@@ -53,6 +53,11 @@ std::vector<Id> ids_of(const std::vector<Item>& items, const std::vector<Index>&
   for (const Index index : indices) ids.push_back(items[index].id);
   return ids;
 }
+std::vector<std::string> labels_of(const Model& model, const std::vector<Index>& surfaces) {
+  std::vector<std::string> labels;
+  for (const Index surface : surfaces) labels.push_back(label_of(model.surfaces[surface]));
+  return labels;
+}
 // At most so many by id.
 constexpr std::size_t most_ids = 20;
 
@@ -82,17 +87,17 @@ std::string title_of(const Model& model, const UndecidedPart& part) {
 std::vector<std::string> warnings_of(const Model& model, const GeometryCheck& check) {
   std::vector<std::string> warnings;
   for (const CoincidentSurfaces& group : check.coincident_surfaces) {
-    std::string text = fmt::format("surfaces {} are the same",
-                                   fmt::join(ids_of(model.surfaces, group.surfaces), ", "));
+    std::string text =
+        fmt::format("surfaces {} are the same", fmt::join(labels_of(model, group.surfaces), ", "));
     for (std::size_t i = 0; i < group.surfaces.size(); ++i) {
       if (group.is_reversed[i] == group.is_reversed[0]) continue;
-      text += fmt::format("; {} faces the other way", model.surfaces[group.surfaces[i]].id);
+      text += fmt::format("; {} faces the other way", label_of(model.surfaces[group.surfaces[i]]));
     }
     warnings.push_back(std::move(text));
   }
   if (!check.unused_surfaces.empty()) {
     warnings.push_back(list_of("no cell uses surface", "no cell uses surfaces",
-                               ids_of(model.surfaces, check.unused_surfaces)));
+                               labels_of(model, check.unused_surfaces)));
   }
   for (const Index universe : check.unseen_universes) {
     warnings.push_back(fmt::format("universe {} is nowhere seen, and so {}",
@@ -153,6 +158,20 @@ std::string conclusion(const GeometryCheck& check, const Rational& tolerance) {
 template <class Item>
 Json json_ids(const std::vector<Item>& items, const std::vector<Index>& indices) {
   return ids_of(items, indices);
+}
+
+// By id; those that users call by something else, by that.
+Json json_surfaces(const Model& model, const std::vector<Index>& surfaces) {
+  Json list = Json::array();
+  for (const Index index : surfaces) {
+    const Surface& surface = model.surfaces[index];
+    if (surface.label.empty()) {
+      list.push_back(surface.id);
+    } else {
+      list.push_back(surface.label);
+    }
+  }
+  return list;
 }
 
 Json json_point(const Point& point) {
@@ -221,7 +240,7 @@ std::string render_json(const Model& model, const GeometryCheck& check, const Ra
                 {"defects", Json::array()},
                 {"undecided", Json::array()},
                 {"coincident_surfaces", Json::array()},
-                {"unused_surfaces", json_ids(model.surfaces, check.unused_surfaces)},
+                {"unused_surfaces", json_surfaces(model, check.unused_surfaces)},
                 {"unseen_universes", json_ids(model.universes, check.unseen_universes)}};
   for (const CheckedPart& part : check.parts) document["parts"].push_back(json_of(model, part));
   for (const Defect& defect : check.defects) document["defects"].push_back(json_of(model, defect));
@@ -229,7 +248,7 @@ std::string render_json(const Model& model, const GeometryCheck& check, const Ra
     document["undecided"].push_back(json_of(model, part));
   }
   for (const CoincidentSurfaces& group : check.coincident_surfaces) {
-    document["coincident_surfaces"].push_back(json_ids(model.surfaces, group.surfaces));
+    document["coincident_surfaces"].push_back(json_surfaces(model, group.surfaces));
   }
   // Names of files may not be UTF-8.
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

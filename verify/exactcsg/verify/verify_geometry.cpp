@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -12,11 +13,11 @@
 #include "exactcsg/io/openmc/cell_volumes.hpp"
 #include "exactcsg/io/openmc/region_bounds.hpp"
 #include "exactcsg/io/openmc/universes.hpp"
-#include "exactcsg/measure/bounding_box.hpp"
-#include "exactcsg/measure/decimal_bounds.hpp"
 #include "exactcsg/support/version.hpp"
+#include "exactcsg/verify/golden_geometry.hpp"
 #include "exactcsg/verify/monte_carlo.hpp"
 #include "exactcsg/verify/nef_volume.hpp"
+#include "exactcsg/verify/volume_bounds.hpp"
 
 namespace exactcsg::verify {
 
@@ -67,8 +68,6 @@ Check skipped(std::string oracle, std::string name, std::string explanation) {
 
 Check compared(std::string name, const VisibleVolume& ours, const SampledVolume& theirs,
                double deviations) {
-  constexpr int digits = 8;
-  const measure::DecimalBounds bounds = measure::decimal_bounds(*ours.volume, digits);
   const double reach = deviations * theirs.deviation;
   const double lower = nearest_double(ours.volume->lower);
   const double upper = nearest_double(ours.volume->upper);
@@ -78,7 +77,7 @@ Check compared(std::string name, const VisibleVolume& ours, const SampledVolume&
   Check check;
   check.oracle = "sampling";
   check.name = std::move(name);
-  check.ours = fmt::format("{} to {}", bounds.lower, bounds.upper);
+  check.ours = text_of(*ours.volume);
   check.theirs = fmt::format("{:.6g}", theirs.estimate);
   check.difference = fmt::format("{:.2g}", beyond);
   check.bound = fmt::format("{:.2g} ({:g} deviations)", reach, deviations);
@@ -108,59 +107,109 @@ void hold_against_points(const Model& model, const GeometryVolumes& volumes,
   }
 }
 
-// A quarter more on each side, so that a bounding box that is too small is seen.
-domain::Box<3> enlarged(const domain::Box<3>& box) {
+// A quarter more on each side, so that a bounding box that is too small is seen; but not beyond the
+// view's, outside of which its window is not known.
+domain::Box<3> enlarged(const domain::Box<3>& box, const std::optional<domain::Box<3>>& view) {
   domain::Coordinates<3> lower = box.lower().coordinates();
   domain::Coordinates<3> upper = box.upper().coordinates();
   for (std::size_t i = 0; i < 3; ++i) {
     const Rational margin = (upper[i] - lower[i]) / 4;
     lower[i] -= margin;
     upper[i] += margin;
+    if (!view) continue;
+    lower[i] = std::max(lower[i], view->lower()[i]);
+    upper[i] = std::min(upper[i], view->upper()[i]);
   }
   return {lower, upper};
 }
 
-// Against the cell's own region: what of it is visible where nothing clips it.
-Check compared_with_nef(const Model& model, Index index, const Enclosure& volume, double seconds,
-                        const VerifyGeometryOptions& options) {
-  const Cell& cell = model.cells[index];
-  std::string name = fmt::format("nef: cell {}", cell.id);
-  if (seconds <= 0) {
-    return skipped("nef", std::move(name),
-                   fmt::format("over the budget of {:g} s for all cells", options.nef_seconds));
+// Each cell in each of its views, the volumes of which are added up.
+class NefComparison {
+ public:
+  NefComparison(const Model& model, const VisibleCells& visible,
+                const VerifyGeometryOptions& options)
+      : model_(model), visible_(visible), options_(options), instances_(model.cells.size()) {
+    for (const VisibleCell& instance : visible.cells) {
+      instances_[instance.cell].push_back(&instance);
+    }
   }
-  const measure::Extent extent = measure::bounding_box(half_spaces(model, cell.region));
-  if (!extent.box) return skipped("nef", std::move(name), "the cell has no bounding box");
-  NefLimits limits;
-  limits.seconds = seconds;
-  limits.progress = options.progress;
-  return compare_with_nef(
-      std::move(name), volume,
-      nef_volume(model, cell.region, enlarged(*extent.box), options.nef_segments, limits));
-}
 
-void hold_against_nef(const Model& model, const GeometryVolumes& volumes,
-                      const VerifyGeometryOptions& options, Report& report) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::vector<Index>& cells = model.universes[model.root].cells;
-  if (options.progress != nullptr) options.progress->begin("Nef polyhedra", cells.size());
-  for (const Index index : cells) {
-    const std::optional<Enclosure>& volume = volumes.cells[index].volume;
-    const double used =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    report.checks.push_back(
-        volume ? compared_with_nef(model, index, *volume, options.nef_seconds - used, options)
-               : skipped("nef", fmt::format("nef: cell {}", model.cells[index].id),
-                         "it is not bounded"));
-    if (options.progress == nullptr) continue;
-    options.progress->advance();
-    options.progress->check();
+  // Those with the fewest different instances first, so that one with many does not take the time
+  // of all others; reported in the order of the model.
+  std::vector<Check> run(const GeometryVolumes& volumes) {
+    std::vector<Index> order(model_.cells.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return instances_[a].size() < instances_[b].size(); });
+    if (options_.progress != nullptr) {
+      options_.progress->begin("Nef polyhedra", visible_.cells.size());
+    }
+    std::vector<Check> checks(model_.cells.size());
+    for (const Index cell : order) checks[cell] = check_of(cell, volumes.cells[cell].volume);
+    return checks;
   }
-  if (cells.size() < model.cells.size()) {
-    report.checks.push_back(skipped("nef", "nef: cells of other universes",
-                                    "faceted are the root's cells only, which nothing clips"));
+
+ private:
+  Check check_of(Index cell, const std::optional<Enclosure>& volume) {
+    std::string name = fmt::format("nef: cell {}", model_.cells[cell].id);
+    if (!volume) return skipped("nef", std::move(name), "it is not bounded");
+    if (instances_[cell].empty()) return skipped("nef", std::move(name), "it is not visible");
+    Check check = compare_with_nef(std::move(name), *volume, volume_of(cell));
+    if (instances_[cell].size() > 1 && check.verdict == Verdict::Passed) {
+      check.explanation = fmt::format("{} different instances", instances_[cell].size());
+    }
+    return check;
   }
-}
+
+  NefVolume volume_of(Index cell) {
+    Enclosure sum;
+    std::size_t done = 0;
+    for (const VisibleCell* instance : instances_[cell]) {
+      NefVolume part = volume_of(*instance);
+      if (!part.bounds) {
+        if (seconds_left() <= 0) part.reason = over_the_budget();
+        if (instances_[cell].size() > 1) {
+          part.reason +=
+              fmt::format(" (after {} of {} different instances)", done, instances_[cell].size());
+        }
+        return part;
+      }
+      sum.lower += instance->visible.instances * part.bounds->lower;
+      sum.upper += instance->visible.instances * part.bounds->upper;
+      ++done;
+    }
+    return {std::move(sum), ""};
+  }
+
+  NefVolume volume_of(const VisibleCell& instance) {
+    if (options_.progress != nullptr) {
+      options_.progress->advance();
+      options_.progress->check();
+    }
+    NefLimits limits;
+    limits.progress = options_.progress;
+    limits.seconds = seconds_left();
+    if (limits.seconds <= 0) return {std::nullopt, over_the_budget()};
+    const Visible& view = visible_.views[instance.view].visible;
+    return nef_volume(model_, model_.cells[instance.cell].region,
+                      enlarged(*instance.visible.box, view.box), options_.nef_segments, limits,
+                      view.window);
+  }
+
+  double seconds_left() const {
+    return options_.nef_seconds -
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  std::string over_the_budget() const {
+    return fmt::format("over the budget of {:g} s for all cells", options_.nef_seconds);
+  }
+
+  const Model& model_;
+  const VisibleCells& visible_;
+  const VerifyGeometryOptions& options_;
+  std::vector<std::vector<const VisibleCell*>> instances_;  // by cell
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace
 
@@ -169,17 +218,33 @@ Report verify_geometry(const Model& model, const VerifyGeometryOptions& options)
   Report report;
   report.model = model.name;
   report.library = std::string(version);
+  // What is wrong with a file is said before the long work.
+  const GoldenGeometries golden =
+      options.golden ? read_golden_geometries(*options.golden) : GoldenGeometries();
   VolumeLimits limits;
   limits.relative_width = options.relative_width;
   limits.progress = options.progress;
-  const GeometryVolumes volumes = measure_volumes(model, limits);
+  const VisibleCells visible = visible_cells(model, options.progress);
+  const GeometryVolumes volumes = measure_volumes(model, visible, limits);
   if (options.progress != nullptr) options.progress->check();
   const auto is_enabled = [&](std::string_view oracle) {
     return std::find(options.disabled.begin(), options.disabled.end(), oracle) ==
            options.disabled.end();
   };
   if (is_enabled("sampling")) hold_against_points(model, volumes, options, report);
-  if (is_enabled("nef")) hold_against_nef(model, volumes, options, report);
+  if (is_enabled("nef")) {
+    for (Check& check : NefComparison(model, visible, options).run(volumes)) {
+      report.checks.push_back(std::move(check));
+    }
+  }
+  if (options.golden && is_enabled("golden")) {
+    const std::string name = options.golden_name.empty()
+                                 ? std::filesystem::path(model.name).stem().string()
+                                 : options.golden_name;
+    for (Check& check : check_golden(golden, name, model, volumes)) {
+      report.checks.push_back(std::move(check));
+    }
+  }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

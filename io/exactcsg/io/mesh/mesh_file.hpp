@@ -46,4 +46,15 @@ struct WriteReport {
 // Format by ending: .off .stl (binary) .obj .ply. Doubles with 17 digits where the format is text.
 WriteReport write_boundary(const Boundary& boundary, const std::filesystem::path& file);
 
+// Triangles between points that the file's format can hold as they are.
+struct RoundedSurface {
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+// Whether the format of the file's ending holds coordinates in single precision, else in double.
+// THROWS Error(UnknownFormat)
+bool is_single_precision(const std::filesystem::path& file);
+// THROWS Error(UnknownFormat | FileNotWritable)
+void write_surface(const RoundedSurface& surface, const std::filesystem::path& file);
+
 }  // namespace exactcsg::io

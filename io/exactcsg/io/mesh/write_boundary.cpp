@@ -24,16 +24,11 @@ namespace {
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 using Coordinates = std::array<double, 3>;
 
-struct Surface {
-  const std::vector<Coordinates>& points;  // rounded as the format does
-  const Triangles& triangles;
-};
-
 void append_point(std::string& text, const Coordinates& p) {
   fmt::format_to(std::back_inserter(text), "{:.17g} {:.17g} {:.17g}\n", p[0], p[1], p[2]);
 }
 
-std::string off(const Surface& surface) {
+std::string off(const RoundedSurface& surface) {
   std::string text = fmt::format("OFF\n{} {} 0\n", surface.points.size(), surface.triangles.size());
   for (const Coordinates& p : surface.points) append_point(text, p);
   for (const auto& [a, b, c] : surface.triangles) {
@@ -42,7 +37,7 @@ std::string off(const Surface& surface) {
   return text;
 }
 
-std::string obj(const Surface& surface) {
+std::string obj(const RoundedSurface& surface) {
   std::string text;
   for (const Coordinates& p : surface.points) {
     text += "v ";
@@ -54,7 +49,7 @@ std::string obj(const Surface& surface) {
   return text;
 }
 
-std::string ply(const Surface& surface) {
+std::string ply(const RoundedSurface& surface) {
   std::string text = fmt::format(
       "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
       "property double z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
@@ -87,7 +82,7 @@ Coordinates unit_normal(const Coordinates& a, const Coordinates& b, const Coordi
 }
 
 // Not beginning with "solid", so that nobody takes it for text.
-std::string binary_stl(const Surface& surface) {
+std::string binary_stl(const RoundedSurface& surface) {
   std::string bytes = "exactcsg binary STL";
   bytes.resize(80, ' ');
   append_bits(bytes, static_cast<std::uint32_t>(surface.triangles.size()));
@@ -106,7 +101,7 @@ std::string binary_stl(const Surface& surface) {
 
 struct Format {
   std::string_view ending;
-  std::string (*write)(const Surface&);
+  std::string (*write)(const RoundedSurface&);
   bool single_precision;
 };
 constexpr std::array<Format, 4> formats = {
@@ -193,7 +188,16 @@ WriteReport write_boundary(const Boundary& boundary, const std::filesystem::path
   for (const auto& [a, b, c] : triangles) {
     if (is_degenerate(points[a], points[b], points[c])) ++report.degenerate_triangles;
   }
-  const std::string bytes = format.write({points, triangles});
+  write_surface({points, triangles}, file);
+  return report;
+}
+
+bool is_single_precision(const std::filesystem::path& file) {
+  return format_of(file).single_precision;
+}
+
+void write_surface(const RoundedSurface& surface, const std::filesystem::path& file) {
+  const std::string bytes = format_of(file).write(surface);
   std::ofstream stream(file, std::ios::binary);
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.close();
@@ -201,7 +205,6 @@ WriteReport write_boundary(const Boundary& boundary, const std::filesystem::path
     throw Error(ErrorId::FileNotWritable,
                 {"an error when writing", "", SourcePosition{file.string()}});
   }
-  return report;
 }
 
 }  // namespace exactcsg::io

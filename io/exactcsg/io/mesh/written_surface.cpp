@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "exactcsg/solid/primitive.hpp"
+#include "exactcsg/solid/fill_rule.hpp"
 
 namespace exactcsg::io {
 
@@ -68,17 +68,23 @@ std::vector<Facet> facets_with_distinct_corners(const PolygonSoup& soup) {
 
 }  // namespace
 
-std::optional<Error> fault_of(const PolygonSoup& soup) {
+SurfaceFinding examine(const PolygonSoup& soup) {
+  return examine(Polyhedron{soup.vertices, facets_with_distinct_corners(soup)});
+}
+
+SurfaceFinding examine(const Polyhedron& polyhedron) {
   try {
-    (void)make_mesh({soup.vertices, facets_with_distinct_corners(soup)});
-    return std::nullopt;
+    (void)make_mesh(polyhedron);
+    return {};
   } catch (const Error& error) {
     switch (error.id()) {
+      case ErrorId::SelfIntersectingMesh:
+        if (is_boundary_of_solid(polyhedron)) return {std::nullopt, true};
+        return {error, false};
       case ErrorId::DegenerateFacet:
       case ErrorId::OpenMesh:
       case ErrorId::InvertedMesh:
-      case ErrorId::SelfIntersectingMesh:
-        return error;
+        return {error, false};
       default:
         throw;
     }

@@ -9,15 +9,24 @@
 #include <span>
 
 #include "exactcsg/io/mesh/mesh_file.hpp"
+#include "exactcsg/solid/primitive.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg::io {
 
-// nullopt: the facets are closed and oriented, none is flat, none meets another but in common
-// corners and sides, and the inside is bounded. Otherwise the first fault that was found, with the
-// facets to blame. Facets with two equal corners are no facets.
-// REQUIRES triangles. COST: O(n log n) expected
-std::optional<Error> fault_of(const PolygonSoup& soup);
+struct SurfaceFinding {
+  // nullopt: the facets are closed and oriented, none is flat, they neither cross nor overlap, and
+  // what is behind them is bounded. Otherwise the first fault that was found, with the facets to
+  // blame.
+  std::optional<Error> fault;
+  // Without a fault: facets touch others elsewhere than in common corners and sides.
+  bool touches_itself = false;
+};
+
+// Facets with two equal corners are no facets. REQUIRES triangles. COST: O(n log n) expected
+SurfaceFinding examine(const PolygonSoup& soup);
+SurfaceFinding examine(const Polyhedron& polyhedron);
+inline std::optional<Error> fault_of(const PolygonSoup& soup) { return examine(soup).fault; }
 
 // How many pieces the facets make that have no corner in common, equal points being one.
 // COST: O(n log n)

@@ -16,13 +16,14 @@
 // LAW cell_volumes.4  the bounds of each cell are as near to each other as asked for, unless a
 // limit
 //                     was reached, which `stop` says.
-// Method: places of a universe with the same clip, as seen from the universe, are one: the volumes
-// are computed once and multiplied. COST: a place costs its clip's classification in a box; for
-// each distinct one a volume (measure/certified_measure.hpp).
+// Method: views of a universe that are equal are one (visible_universes.hpp): the volumes are
+// computed once and multiplied. COST: that of visible_cells; for each distinct instance a volume
+// (measure/certified_measure.hpp).
 
+#include <string>
 #include <vector>
 
-#include "exactcsg/io/openmc/model.hpp"
+#include "exactcsg/io/openmc/visible_universes.hpp"
 #include "exactcsg/measure/certified_measure.hpp"
 
 namespace exactcsg::io::openmc {
@@ -38,12 +39,13 @@ struct VolumeLimits {
 };
 
 struct VisibleVolume {
-  Integer instances;  // without those in boxes where classification alone shows nothing of it
+  Integer instances;  // without those of which their boxes alone show that nothing is visible
   std::optional<Enclosure> volume;                        // nullopt: not bounded
   measure::StopReason stop = measure::StopReason::Width;  // the first that is not Width
 };
 
 using Materials = std::vector<std::optional<Id>>;
+std::string text_of_materials(const Materials& materials);  // "void", "1, 2"
 
 struct MaterialVolume {
   Materials materials;
@@ -57,7 +59,10 @@ struct GeometryVolumes {
   std::uint64_t decomposition_cells = 0;
 };
 
-// THROWS Error(TooLarge) where an outer universe is repeated too often.
+// THROWS Error(TooLarge) as visible_universes.
+// REQUIRES visible_cells(model)
+GeometryVolumes measure_volumes(const Model& model, const VisibleCells& visible,
+                                const VolumeLimits& limits = {});
 GeometryVolumes measure_volumes(const Model& model, const VolumeLimits& limits = {});
 
 }  // namespace exactcsg::io::openmc

@@ -25,6 +25,11 @@ const Rational& half_root_of_three() {
   return value;
 }
 
+Rational row_distance_of(const Lattice& lattice) {
+  if (lattice.row_distance) return *lattice.row_distance;
+  return half_root_of_three() * lattice.pitch[0];
+}
+
 std::int64_t count_of(const Field& word) {
   const std::int32_t value = word.integer();
   if (value <= 0) {
@@ -254,10 +259,10 @@ struct SkewPoint {
 };
 
 // Orientation x is y with the axes exchanged, and i with a.
-SkewPoint skew_of(LatticeKind kind, const Rational& x, const Rational& y, const Rational& pitch) {
-  const bool is_y = kind == LatticeKind::HexagonalY;
-  Rational skew = (is_y ? x : y) / (half_root_of_three() * pitch);
-  Rational straight = (is_y ? y : x) / pitch - skew / 2;
+SkewPoint skew_of(const Lattice& lattice, const Rational& x, const Rational& y) {
+  const bool is_y = lattice.kind == LatticeKind::HexagonalY;
+  Rational skew = (is_y ? x : y) / row_distance_of(lattice);
+  Rational straight = (is_y ? y : x) / lattice.pitch[0] - skew / 2;
   return is_y ? SkewPoint{std::move(skew), std::move(straight)}
               : SkewPoint{std::move(straight), std::move(skew)};
 }
@@ -279,7 +284,7 @@ PointClass class_in_hexagon(const SkewPoint& p) {
 std::array<Rational, 2> hexagon_centre(const Lattice& lattice, const Rational& i,
                                        const Rational& a) {
   const bool is_y = lattice.kind == LatticeKind::HexagonalY;
-  Rational across = half_root_of_three() * lattice.pitch[0] * (is_y ? i : a);
+  Rational across = row_distance_of(lattice) * (is_y ? i : a);
   Rational straight = lattice.pitch[0] * (is_y ? Rational(a + i / 2) : Rational(i + a / 2));
   if (is_y) return {std::move(across), std::move(straight)};
   return {std::move(straight), std::move(across)};
@@ -293,7 +298,7 @@ bool is_hexagon_of(const Lattice& lattice, const Integer& i, const Integer& a) {
 Search place_in_hexagons(const Lattice& lattice, const Point& point) {
   const Rational x = point[0] - lattice.origin[0];
   const Rational y = point[1] - lattice.origin[1];
-  const SkewPoint skew = skew_of(lattice.kind, x, y, lattice.pitch[0]);
+  const SkewPoint skew = skew_of(lattice, x, y);
   const Integer low_i = floor_of(skew.i);
   const Integer low_a = floor_of(skew.a);
   const LayerPlace layer = layer_of(lattice, point[2]);
@@ -377,7 +382,7 @@ ElementShape element_shape(const Lattice& lattice) {
   const bool is_y = lattice.kind == LatticeKind::HexagonalY;
   const std::size_t across = is_y ? 0 : 1;
   const std::size_t straight = 1 - across;
-  const Rational step = half_root_of_three() * lattice.pitch[0];
+  const Rational step = row_distance_of(lattice);
   shape.half_extent[across] = Rational(2, 3) * step;
   // The forms of class_in_hexagon in the coordinates.
   const auto side = [&](const Rational& along_across, const Rational& along_straight) {
@@ -441,8 +446,8 @@ ElementRange elements_near(const Lattice& lattice, const domain::Box<3>& box) {
   bool is_first = true;
   for (const Rational& x : {low[0], high[0]}) {
     for (const Rational& y : {low[1], high[1]}) {
-      const SkewPoint skew = skew_of(lattice.kind, Rational(x - lattice.origin[0]),
-                                     Rational(y - lattice.origin[1]), lattice.pitch[0]);
+      const SkewPoint skew =
+          skew_of(lattice, Rational(x - lattice.origin[0]), Rational(y - lattice.origin[1]));
       include(range, 0, skew.i, is_first);
       include(range, 1, skew.a, is_first);
       is_first = false;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The geometry of an OpenMC model, as geometry.xml or model.xml says it: surfaces, cells, universes
-// and lattices that refer to each other by index. A value, not changed once it was read. [Exact]
+// The geometry of an OpenMC model, as geometry.xml or model.xml says it, or of an MCNP input file
+// (io/mcnp/reader.hpp): surfaces, cells, universes and lattices that refer to each other by index.
+// A value, not changed once it was read. [Exact]
 //
 // LAW openmc_model.1  decimals mean themselves: no coefficient is rounded. Two irrational numbers
 //                     are: the sines and cosines of a rotation given in degrees, and half the root
@@ -42,7 +43,9 @@ struct Surface {
   std::vector<Rational> coefficients;
   HalfSpace negative;  // {f <= 0}, what "-id" says
   SourcePosition position;
+  std::string label{};  // what users call it, if not by its id: "8.3", a facet
 };
+std::string label_of(const Surface& surface);
 
 // "-id" or "id" in a region.
 struct SurfaceSide {
@@ -76,6 +79,12 @@ struct Universe {
 
 enum class LatticeKind : unsigned char { Rectangular, HexagonalX, HexagonalY };
 
+// How users number elements, if not as here: matrix * element + offset.
+struct ElementNumbering {
+  std::array<std::array<std::int64_t, 3>, 3> matrix{};
+  std::array<std::int64_t, 3> offset{};
+};
+
 // LAW lattice.1  elements.size() is the product of the counts if rectangular, and layers times
 //                3 rings (rings - 1) + 1 if hexagonal, in the order of element_index.
 struct Lattice {
@@ -91,9 +100,12 @@ struct Lattice {
   std::vector<Index> elements;       // universes
   std::optional<Index> outer;        // universe
   SourcePosition position;
+  // Hexagonal: between rows; without, half the root of three, rounded, times the pitch.
+  std::optional<Rational> row_distance{};
+  std::optional<ElementNumbering> numbering{};
 
   bool is_hexagonal() const { return kind != LatticeKind::Rectangular; }
-  bool is_rounded() const { return is_hexagonal(); }
+  bool is_rounded() const { return is_hexagonal() && !row_distance; }
 };
 
 struct Model {
@@ -103,6 +115,9 @@ struct Model {
   std::vector<Universe> universes;
   std::vector<Lattice> lattices;
   Index root = 0;  // universe
+  // Every place has to be in a cell of the root, also where no boundary condition keeps particles
+  // in: the format has cells for all that is outside.
+  bool fills_space = false;
   std::vector<Warning> warnings;
 };
 
@@ -114,9 +129,10 @@ HalfSpaceRegion half_spaces(const Model& model, const Region& region);
 
 // THROWS Error with line and column for everything that is wrong with the text.
 Model read_geometry(std::string_view text, std::string name);
-// Of a file. THROWS the same, and Error(FileNotReadable | EmptyFile)
+// Of a file, by the ending of its name: .xml, or .mcnp, .inp and .i of MCNP.
+// THROWS what the format's reader throws, and Error(FileNotReadable | EmptyFile)
 Model read_geometry_file(const std::filesystem::path& file);
-// By the ending of its name, .xml.
+// By the ending of its name.
 bool is_geometry_file(const std::filesystem::path& file);
 
 }  // namespace exactcsg::io::openmc

@@ -21,6 +21,16 @@ namespace exactcsg::io::openmc {
 
 namespace {
 
+std::array<std::int64_t, 3> numbered(const Lattice& lattice,
+                                     const std::array<std::int64_t, 3>& element) {
+  if (!lattice.numbering) return element;
+  std::array<std::int64_t, 3> result = lattice.numbering->offset;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) result[i] += lattice.numbering->matrix[i][j] * element[j];
+  }
+  return result;
+}
+
 std::string text_of(const Model& model, const Step& step) {
   switch (step.kind) {
     case StepKind::Universe:
@@ -33,7 +43,7 @@ std::string text_of(const Model& model, const Step& step) {
   const Lattice& lattice = model.lattices[step.index];
   std::string text = fmt::format("lattice {}", lattice.id);
   if (!step.element) return text;
-  const auto& [i, j, layer] = *step.element;
+  const auto [i, j, layer] = numbered(lattice, *step.element);
   return text + (lattice.has_layers ? fmt::format(" ({}, {}, {})", i, j, layer)
                                     : fmt::format(" ({}, {})", i, j));
 }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <unordered_map>
 #include <unordered_set>
@@ -12,6 +11,7 @@
 #include "exactcsg/io/openmc/located_xml.hpp"
 #include "exactcsg/io/openmc/region.hpp"
 #include "exactcsg/io/openmc/surfaces.hpp"
+#include "exactcsg/io/openmc/universes.hpp"
 #include "exactcsg/io/openscad/degree_trigonometry.hpp"
 
 namespace exactcsg::io::openmc {
@@ -77,7 +77,7 @@ class GeometryReader {
     for (const Element& lattice : lattices) add_lattice(lattice);
     resolve_fills();
     resolve_lattices();
-    refuse_cycles();
+    refuse_cycles(model_);
     choose_root(geometry);
     return std::move(model_);
   }
@@ -282,41 +282,6 @@ class GeometryReader {
     }
   }
 
-  // Depth first, over a stack of our own: universes may be nested as deeply as a file is long.
-  void refuse_cycles() const {
-    enum class State : unsigned char { New, Open, Done };
-    std::vector<State> states(model_.universes.size(), State::New);
-    std::vector<std::pair<Index, bool>> pending;  // a universe, to enter or to leave
-    for (Index first = 0; first < states.size(); ++first) {
-      pending.emplace_back(first, false);
-      while (!pending.empty()) {
-        const auto [universe, leaves] = pending.back();
-        pending.pop_back();
-        if (leaves) {
-          states[universe] = State::Done;
-          continue;
-        }
-        if (states[universe] != State::New) continue;
-        states[universe] = State::Open;
-        pending.emplace_back(universe, true);
-        for (const Index index : model_.universes[universe].cells) {
-          const Cell& cell = model_.cells[index];
-          for (const Index below : universes_in(model_, cell)) {
-            if (states[below] == State::Open) throw_cycle(cell, below);
-            if (states[below] == State::New) pending.emplace_back(below, false);
-          }
-        }
-      }
-    }
-  }
-
-  [[noreturn]] void throw_cycle(const Cell& cell, Index universe) const {
-    throw Error(ErrorId::CyclicFill,
-                {fmt::format("cell {} is filled with universe {}, which it is itself part of",
-                             cell.id, model_.universes[universe].id),
-                 "", cell.position});
-  }
-
   // The one universe that nothing is filled with.
   void choose_root(const Element& geometry) {
     std::vector<bool> is_used(model_.universes.size(), false);
@@ -362,6 +327,10 @@ std::vector<Index> universes_in(const Model& model, const Cell& cell) {
   return universes;
 }
 
+std::string label_of(const Surface& surface) {
+  return surface.label.empty() ? std::to_string(surface.id) : surface.label;
+}
+
 HalfSpaceRegion half_spaces(const Model& model, const Region& region) {
   return csg::map(region, [&](const SurfaceSide& side) {
     const HalfSpace& negative = model.surfaces[side.surface].negative;
@@ -372,25 +341,6 @@ HalfSpaceRegion half_spaces(const Model& model, const Region& region) {
 Model read_geometry(std::string_view text, std::string name) {
   const LocatedXml file(text, name);
   return GeometryReader(file, std::move(name)).read();
-}
-
-Model read_geometry_file(const std::filesystem::path& file) {
-  const SourcePosition position{file.string()};
-  if (std::filesystem::is_directory(file)) {
-    throw Error(ErrorId::FileNotReadable, {"a directory", "a file", position});
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error(ErrorId::FileNotReadable, {"", "", position});
-  const std::string text((std::istreambuf_iterator<char>(stream)), {});
-  if (text.empty()) throw Error(ErrorId::EmptyFile, {"", "", position});
-  return read_geometry(text, file.string());
-}
-
-bool is_geometry_file(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".xml";
 }
 
 }  // namespace exactcsg::io::openmc

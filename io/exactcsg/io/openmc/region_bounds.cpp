@@ -232,7 +232,8 @@ domain::Box<3> box_of_root(const Model& model) {
       }
     });
   }
-  if (!has_boundary) throw_no_boundary("no surface of the root's cells has a boundary condition");
+  if (!has_boundary && !model.fills_space)
+    throw_no_boundary("no surface of the root's cells has a boundary condition");
   if (!bounds) bounds.emplace();
   domain::Coordinates<3> lower;
   domain::Coordinates<3> upper;

@@ -233,6 +233,31 @@ bool takes_both_signs(const domain::Quadric<3>& f) {
   return has_positive && has_negative;
 }
 
+std::optional<HalfSpace> half_space_of(std::string_view type,
+                                       const std::vector<Rational>& coefficients) {
+  const Kind& kind = kind_of(type);
+  const std::vector<Rational>& c = coefficients;
+  const bool is_surface = [&] {
+    switch (kind.shape) {
+      case Shape::Plane:
+        return c[0] != 0 || c[1] != 0 || c[2] != 0;
+      case Shape::AxisPlane:
+        return true;
+      case Shape::Sphere:
+      case Shape::Cylinder:
+      case Shape::Cone:
+        return c.back() > 0;
+      case Shape::Torus:
+        return c[3] >= 0 && c[4] > 0 && c[5] > 0;
+      case Shape::Quadric:
+        break;
+    }
+    return takes_both_signs(quadric_of(c));
+  }();
+  if (!is_surface) return std::nullopt;
+  return half_space_of(kind, c);
+}
+
 Surface read_surface(const Element& element) {
   const Field id = element.required("id").word();
   const Id number = id.integer();

@@ -17,6 +17,11 @@ namespace exactcsg::io::openmc {
 // negative radius), DegenerateSurface (no surface has this equation), and those of numbers.
 Surface read_surface(const Element& element);
 
+// The half-space of a surface of this type with these coefficients. nullopt: no surface has such an
+// equation, or a radius is negative. REQUIRES a type of the list above with as many coefficients.
+std::optional<HalfSpace> half_space_of(std::string_view type,
+                                       const std::vector<Rational>& coefficients);
+
 // True if f is below 0 somewhere and above 0 somewhere: then it is round each of its zeros, and
 // f = 0 is a surface. COST: O(1) rational operations.
 bool takes_both_signs(const domain::Quadric<3>& f);

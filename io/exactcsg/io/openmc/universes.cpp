@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exactcsg/io/openmc/universes.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "exactcsg/csg/prune.hpp"
@@ -8,6 +10,17 @@
 #include "exactcsg/io/openmc/lattices.hpp"
 
 namespace exactcsg::io::openmc {
+
+namespace {
+
+[[noreturn]] void throw_cycle(const Model& model, const Cell& cell, Index universe) {
+  throw Error(ErrorId::CyclicFill,
+              {fmt::format("cell {} is filled with universe {}, which it is itself part of",
+                           cell.id, model.universes[universe].id),
+               "", cell.position});
+}
+
+}  // namespace
 
 std::vector<Index> universes_from_above(const Model& model) {
   std::vector<std::vector<Index>> below(model.universes.size());
@@ -28,6 +41,34 @@ std::vector<Index> universes_from_above(const Model& model) {
     }
   }
   return order;
+}
+
+// Depth first, over a stack of our own: universes may be nested as deeply as a file is long.
+void refuse_cycles(const Model& model) {
+  enum class State : unsigned char { New, Open, Done };
+  std::vector<State> states(model.universes.size(), State::New);
+  std::vector<std::pair<Index, bool>> pending;  // a universe, to enter or to leave
+  for (Index first = 0; first < states.size(); ++first) {
+    pending.emplace_back(first, false);
+    while (!pending.empty()) {
+      const auto [universe, leaves] = pending.back();
+      pending.pop_back();
+      if (leaves) {
+        states[universe] = State::Done;
+        continue;
+      }
+      if (states[universe] != State::New) continue;
+      states[universe] = State::Open;
+      pending.emplace_back(universe, true);
+      for (const Index index : model.universes[universe].cells) {
+        const Cell& cell = model.cells[index];
+        for (const Index below : universes_in(model, cell)) {
+          if (states[below] == State::Open) throw_cycle(model, cell, below);
+          if (states[below] == State::New) pending.emplace_back(below, false);
+        }
+      }
+    }
+  }
 }
 
 AffineMap translation(const domain::Coordinates<3>& offset) {

@@ -13,6 +13,9 @@ namespace exactcsg::io::openmc {
 // All universes, each after all that contain it (LAW openmc_model.2: there is no cycle).
 std::vector<Index> universes_from_above(const Model& model);
 
+// THROWS Error(CyclicFill) at a cell that is filled with a universe that it is itself part of.
+void refuse_cycles(const Model& model);
+
 AffineMap translation(const domain::Coordinates<3>& offset);
 HalfSpaceRegion region_of(const domain::Solid3& solid);
 HalfSpaceRegion moved(const AffineMap& map, const HalfSpaceRegion& region);

@@ -12,6 +12,7 @@
 #include "exactcsg/io/openmc/lattices.hpp"
 #include "exactcsg/io/openmc/region_bounds.hpp"
 #include "exactcsg/io/openmc/universes.hpp"
+#include "exactcsg/measure/bounding_box.hpp"
 #include "exactcsg/measure/surface_table.hpp"
 
 namespace exactcsg::io::openmc {
@@ -50,11 +51,16 @@ Box box_of_image(const AffineMap& map, const Box& box) {
 }
 
 Visible mapped(const AffineMap& map, Visible visible) {
-  if (!keeps_axes(map))
-    visible.window = csg::intersect(visible.window, region_of(domain::make_block(visible.box)));
-  visible.box = box_of_image(map, visible.box);
-  visible.window = pruned(moved(map, visible.window), visible.box);
   visible.from_root = map * visible.from_root;
+  if (!visible.box) {
+    visible.window = moved(map, visible.window);
+    return visible;
+  }
+  // What the window is outside the box is not known.
+  if (!keeps_axes(map))
+    visible.window = csg::intersect(visible.window, region_of(domain::make_block(*visible.box)));
+  visible.box = box_of_image(map, *visible.box);
+  visible.window = pruned(moved(map, visible.window), *visible.box);
   return visible;
 }
 
@@ -107,9 +113,9 @@ class Explorer {
     known_.resize(model.universes.size());
   }
 
-  VisibleUniverses run(const Box& box) {
+  VisibleUniverses run(const std::optional<Box>& box) {
     const std::vector<Index> order = universes_from_root();
-    add(model_.root, {box, HalfSpaceRegion::full(), AffineMap::identity(), {}, 1});
+    add(model_.root, {box, HalfSpaceRegion::full(), AffineMap::identity(), {}, 1, false});
     VisibleUniverses result;
     for (const Index universe : order) {
       for (View& view : views_[universe]) {
@@ -147,9 +153,9 @@ class Explorer {
   }
 
   std::string key_of(const Visible& visible) {
-    std::string key;
-    for (std::size_t i = 0; i < 3; ++i) {
-      key += to_text(visible.box.lower()[i]) + ' ' + to_text(visible.box.upper()[i]) + ' ';
+    std::string key = visible.is_everywhere ? "everywhere " : "";
+    for (std::size_t i = 0; visible.box && i < 3; ++i) {
+      key += to_text(visible.box->lower()[i]) + ' ' + to_text(visible.box->upper()[i]) + ' ';
     }
     return key + csg::to_text(surfaces_.add(visible.window), [](const measure::Literal& literal) {
              return (literal.is_complemented ? "c" : "s") + std::to_string(literal.surface);
@@ -170,38 +176,32 @@ class Explorer {
     views_[universe].push_back({universe, std::move(visible)});
   }
 
-  // The part in the region of a cell.
-  std::optional<Visible> part_in(const Visible& visible, const Cell& cell) const {
-    const auto box = cut(visible.box, bounds_of(model_, cell.region));
-    if (!box) return std::nullopt;
-    HalfSpaceRegion window =
-        pruned(csg::intersect(visible.window, half_spaces(model_, cell.region)), *box);
-    if (window.is_empty()) return std::nullopt;
-    return Visible{*box, std::move(window), visible.from_root, visible.path, visible.instances};
-  }
-
   void explore(const View& view) {
     for (const Index index : model_.universes[view.universe].cells) {
       const Cell& cell = model_.cells[index];
       if (cell.fill == FillKind::Material) continue;
-      std::optional<Visible> part = part_in(view.visible, cell);
+      std::optional<Visible> part = part_in(model_, view.visible, cell);
       if (!part) continue;
       part->path.push_back({StepKind::Cell, index, std::nullopt});
       if (cell.to_fill) part = mapped(*cell.to_fill, std::move(*part));
       if (cell.fill == FillKind::Universe) {
         add(cell.filled_with, std::move(*part));
-      } else {
+      } else if (part->is_everywhere) {
+        for (const Index universe : universes_in(model_, cell)) add(universe, *part);
+      } else if (part->box) {
         explore_lattice(cell.filled_with, *part);
+      } else {
+        explore_lattice_without_end(cell.filled_with, *part);
       }
     }
   }
 
   // The box round the elements of a range, in the lattice's coordinates; along z, without layers,
-  // that of `visible`.
+  // that of `visible`. REQUIRES a box, or layers
   static Box box_of(const Lattice& lattice, const Coordinates& half_extent,
-                    const ElementRange& range, const Box& visible) {
-    Coordinates lower = visible.lower().coordinates();
-    Coordinates upper = visible.upper().coordinates();
+                    const ElementRange& range, const std::optional<Box>& visible) {
+    Coordinates lower = visible ? visible->lower().coordinates() : Coordinates();
+    Coordinates upper = visible ? visible->upper().coordinates() : Coordinates();
     for (unsigned corner = 0; corner < 8; ++corner) {
       std::array<std::int64_t, 3> element{};
       for (std::size_t i = 0; i < 3; ++i) {
@@ -228,16 +228,17 @@ class Explorer {
   void explore_lattice(Index index, const Visible& visible) {
     const Lattice& lattice = model_.lattices[index];
     const ElementShape shape = element_shape(lattice);
-    std::vector<ElementRange> pending{elements_near(lattice, visible.box)};
+    std::vector<ElementRange> pending{elements_near(lattice, *visible.box)};
     while (!pending.empty()) {
       if (progress_ != nullptr) progress_->check();
       const ElementRange range = pending.back();
       pending.pop_back();
       const Box whole = box_of(lattice, shape.half_extent, range, visible.box);
-      const std::optional<Box> box = common(whole, visible.box);
+      const std::optional<Box> box = common(whole, *visible.box);
       if (!box) continue;
-      Visible part{*box, pruned(visible.window, *box), visible.from_root, visible.path,
-                   visible.instances};
+      Visible part{
+          box,  pruned(visible.window, *box), visible.from_root, visible.path, visible.instances,
+          false};
       if (part.window.is_empty()) continue;
       const bool is_uncut = part.window.is_full() && *box == whole;
       const Placement placement = placement_of(lattice, range);
@@ -249,6 +250,33 @@ class Explorer {
         pending.push_back(parts.first);
       }
     }
+  }
+
+  // Element by element. Of the outer universe nothing is known.
+  void explore_lattice_without_end(Index index, const Visible& visible) {
+    const Lattice& lattice = model_.lattices[index];
+    const ElementShape shape = element_shape(lattice);
+    for_each_element(
+        lattice, std::nullopt,
+        [&](const std::array<std::int64_t, 3>& element, Index universe, const Coordinates& centre) {
+          if (progress_ != nullptr) progress_->check();
+          Visible part = visible;
+          if (lattice.has_layers) {
+            part.box = box_of(lattice, shape.half_extent, {element, next(element)}, std::nullopt);
+            part.window = pruned(part.window, *part.box);
+            part = element_of(index, shape, element, part);
+          } else {
+            part.window = csg::intersect(std::move(part.window), element_region(lattice, centre));
+            part = in_element(index, element, part);
+          }
+          if (!part.window.is_empty()) add(universe, std::move(part));
+        });
+    if (!lattice.outer) return;
+    Visible outer = visible;
+    outer.window = HalfSpaceRegion::full();
+    outer.is_everywhere = true;
+    outer.path.push_back({StepKind::Lattice, index, std::nullopt});
+    add(*lattice.outer, std::move(outer));
   }
 
   // REQUIRES one element, or several that are not cut.
@@ -286,21 +314,27 @@ class Explorer {
     return element;
   }
 
-  // The part that is in an element, in its coordinates.
+  // The part that is in an element, in its coordinates. REQUIRES a box
   Visible element_of(Index index, const ElementShape& shape,
                      const std::array<std::int64_t, 3>& element, const Visible& part) const {
-    const Lattice& lattice = model_.lattices[index];
     const ElementRange range{element, next(element)};
     Visible result = part;
-    result.box = *common(box_of(lattice, shape.half_extent, range, part.box), part.box);
-    Coordinates offset = centre_of(lattice, element);
-    for (Rational& x : offset) x = -x;
-    if (!lattice.has_layers) offset[2] = 0;
-    result = mapped(translation(offset), std::move(result));
-    result.window = pruned(csg::intersect(std::move(result.window), shape.sides), result.box);
-    result.path.push_back({StepKind::Lattice, index, element});
-    if (!is_element_of(lattice, element)) result.path.back().element.reset();
+    result.box =
+        common(box_of(model_.lattices[index], shape.half_extent, range, part.box), *part.box);
+    result = in_element(index, element, std::move(result));
+    result.window = pruned(csg::intersect(std::move(result.window), shape.sides), *result.box);
     return result;
+  }
+
+  // The same points, in the coordinates of an element.
+  Visible in_element(Index index, const std::array<std::int64_t, 3>& element,
+                     Visible visible) const {
+    const Lattice& lattice = model_.lattices[index];
+    const Coordinates centre = place_of_element(lattice, centre_of(lattice, element));
+    visible = mapped(inverse(translation(centre)), std::move(visible));
+    visible.path.push_back({StepKind::Lattice, index, element});
+    if (!is_element_of(lattice, element)) visible.path.back().element.reset();
+    return visible;
   }
 
   void put_outside(Index index, const ElementShape& shape, const ElementRange& range,
@@ -320,9 +354,44 @@ class Explorer {
 
 }  // namespace
 
-VisibleUniverses visible_universes(const Model& model, const Box& box, Progress* progress) {
+VisibleUniverses visible_universes(const Model& model, const std::optional<Box>& box,
+                                   Progress* progress) {
   if (progress != nullptr) progress->begin("universes", 0);
   return Explorer(model, progress).run(box);
+}
+
+std::optional<Visible> part_in(const Model& model, const Visible& visible, const Cell& cell) {
+  if (visible.is_everywhere) return visible;
+  Visible part = visible;
+  part.window = csg::simplify(csg::intersect(visible.window, half_spaces(model, cell.region)));
+  if (visible.box) {
+    part.box = cut(*visible.box, bounds_of(model, cell.region));
+    if (part.box) part.box = measure::tightened(part.window, *part.box);
+    if (!part.box) return std::nullopt;
+  } else {
+    measure::Extent extent = measure::bounding_box(part.window);
+    if (extent.kind == measure::ExtentKind::Empty) return std::nullopt;
+    part.box = std::move(extent.box);
+  }
+  if (part.box) part.window = pruned(part.window, *part.box);
+  if (part.window.is_empty()) return std::nullopt;
+  return part;
+}
+
+VisibleCells visible_cells(const Model& model, Progress* progress) {
+  VisibleCells result{visible_universes(model, std::nullopt, progress).views, {}};
+  for (std::size_t i = 0; i < result.views.size(); ++i) {
+    const View& view = result.views[i];
+    for (const Index cell : model.universes[view.universe].cells) {
+      if (progress != nullptr) {
+        progress->advance();
+        progress->check();
+      }
+      std::optional<Visible> part = part_in(model, view.visible, model.cells[cell]);
+      if (part) result.cells.push_back({cell, i, std::move(*part)});
+    }
+  }
+  return result;
 }
 
 }  // namespace exactcsg::io::openmc

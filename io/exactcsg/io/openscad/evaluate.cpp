@@ -182,7 +182,11 @@ class ExactBuilder {
   using Outcome = ExactOutcome;
 
   ExactBuilder(const SyntaxTree& tree, Warnings& warnings, const ReadOptions& options)
-      : tree_(tree), warnings_(warnings), files_(options.folder) {}
+      : tree_(tree),
+        warnings_(warnings),
+        files_(options.folder),
+        fill_(options.fill),
+        progress_(options.progress) {}
 
   Context root() const { return identity_; }
 
@@ -384,7 +388,7 @@ class ExactBuilder {
     if (shape.twist != 0 || !same_scale) {
       extrusion.levels = levels(shape, *outline);
     }
-    result.solid = placed(linear_extrude(*outline, extrusion), placement);
+    result.solid = placed(linear_extrude(*outline, extrusion, inside_rule(node)), placement);
     return result;
   }
 
@@ -692,12 +696,15 @@ class ExactBuilder {
   }
 
   Solid faced(const FacedPoints& points, std::uint32_t node, const Placement& placement) {
-    Primitive primitive = make_polyhedron(
-        points, [&](const std::string& text) { warnings_.add(text, position(node)); });
+    Solid solid = solid_of_polyhedron(points, inside_rule(node), origin(node));
     if (placement.singular) return Solid::empty();
-    if (placement.space != AffineMap::identity()) primitive = apply(placement.space, primitive);
-    primitive.origin = origin(node);
-    return Solid::primitive(std::move(primitive));
+    if (placement.space == AffineMap::identity()) return solid;
+    return exactcsg::apply(placement.space, solid);
+  }
+
+  InsideRule inside_rule(std::uint32_t node) {
+    return {fill_, [this, node](const std::string& text) { warnings_.add(text, position(node)); },
+            progress_};
   }
 
   Solid imported(std::uint32_t node, const Placement& placement) {
@@ -788,6 +795,8 @@ class ExactBuilder {
   Warnings& warnings_;
   const Context identity_ = std::make_shared<const Placement>();
   NamedFiles files_;
+  std::optional<FillRule> fill_;
+  Progress* progress_;
   ShapeCache shapes_;
   std::size_t primitives_ = 0;
   std::size_t vertices_ = 0;

@@ -175,14 +175,16 @@ std::string describe(const Face& face) {
 
 class FaceSplitter {
  public:
-  FaceSplitter(const std::vector<Point3>& vertices,
-               const std::function<void(const std::string&)>& warn)
-      : vertices_(vertices), warn_(warn) {}
+  // With `any_outline`, outlines may cross themselves, and vertices are added for these.
+  FaceSplitter(std::vector<Point3>& vertices, const std::function<void(const std::string&)>& warn,
+               bool any_outline)
+      : vertices_(vertices), warn_(warn), any_outline_(any_outline) {}
 
   // `name`: the face as the user wrote it.
   void add(const Face& face, const std::string& name) {
     const Vector3 normal = vector_area(vertices_, face);
     if (is_zero(normal)) {
+      if (any_outline_ && fan_out(face)) return;
       throw Error(ErrorId::DegenerateFacet, {"face " + name, "a face with an area"});
     }
     if (face.size() == 3) {
@@ -219,6 +221,7 @@ class FaceSplitter {
  private:
   void add_triangles(const Face& face, const std::vector<Point2>& points, const std::string& name) {
     auto triangles = cut_ears(face, points);
+    if (!triangles && any_outline_ && fan_out(face)) return;
     if (!triangles) {
       throw Error(ErrorId::SelfIntersectingMesh,
                   {"face " + name + ", whose outline crosses itself or turns clockwise",
@@ -227,8 +230,46 @@ class FaceSplitter {
     for (Face& triangle : *triangles) facets_.push_back(std::move(triangle));
   }
 
-  const std::vector<Point3>& vertices_;
+  // Triangles round a point that is in line with no side: whatever the outline's shape, they go
+  // round every point as often as it does. False: no such point was found (all vertices in one
+  // line).
+  bool fan_out(const Face& face) {
+    constexpr unsigned attempts = 16;
+    for (unsigned attempt = 0; attempt < attempts; ++attempt) {
+      const Point3 middle = weighted_mean(face, attempt);
+      bool in_line = false;
+      for (std::size_t i = 0; i < face.size() && !in_line; ++i) {
+        const Point3& from = vertices_[face[i]];
+        in_line = is_zero(cross(vertices_[face[(i + 1) % face.size()]] - from, middle - from));
+      }
+      if (in_line) continue;
+      const auto apex = static_cast<std::uint32_t>(vertices_.size());
+      vertices_.push_back(middle);
+      for (std::size_t i = 0; i < face.size(); ++i) {
+        facets_.push_back({face[i], face[(i + 1) % face.size()], apex});
+      }
+      return true;
+    }
+    return false;
+  }
+
+  // Other weights at each attempt.
+  Point3 weighted_mean(const Face& face, unsigned attempt) const {
+    Vector3 sum{0, 0, 0};
+    unsigned total = 0;
+    const Point3 origin{0, 0, 0};
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const unsigned weight = 1 + (static_cast<unsigned>(i % 31) * (attempt + 3)) % 7;
+      const Vector3 v = vertices_[face[i]] - origin;
+      sum = {sum.x + weight * v.x, sum.y + weight * v.y, sum.z + weight * v.z};
+      total += weight;
+    }
+    return {sum.x / total, sum.y / total, sum.z / total};
+  }
+
+  std::vector<Point3>& vertices_;
   const std::function<void(const std::string&)>& warn_;
+  bool any_outline_;
   std::vector<Facet> facets_;
 };
 
@@ -293,12 +334,11 @@ Polyhedron compacted(std::vector<Point3> vertices, std::vector<Facet> facets) {
   return result;
 }
 
-}  // namespace
-
-Primitive make_polyhedron(const FacedPoints& input,
-                          const std::function<void(const std::string&)>& warn) {
+Polyhedron with_convex_facets(const FacedPoints& input,
+                              const std::function<void(const std::string&)>& warn,
+                              bool any_outline) {
   Welded welded = weld(input.points);
-  FaceSplitter splitter(welded.vertices, warn);
+  FaceSplitter splitter(welded.vertices, warn, any_outline);
   for (const Face& given : input.faces) {
     Face face;
     face.reserve(given.size());
@@ -321,8 +361,43 @@ Primitive make_polyhedron(const FacedPoints& input,
   if (polyhedron.facets.empty()) {
     throw Error(ErrorId::OpenMesh, {"a polyhedron without faces", "at least four faces"});
   }
+  return polyhedron;
+}
+
+// nullopt: Empty.
+std::optional<Primitive> only_primitive(const Solid& solid) {
+  if (solid.is_empty()) return std::nullopt;
+  return solid.root().primitive();
+}
+
+}  // namespace
+
+Primitive make_polyhedron(const FacedPoints& input,
+                          const std::function<void(const std::string&)>& warn) {
+  Polyhedron polyhedron = with_convex_facets(input, warn, false);
   if (auto convex = as_convex_polytope(polyhedron)) return Primitive{*std::move(convex)};
   return Primitive{make_mesh(std::move(polyhedron))};
+}
+
+Solid solid_of_polyhedron(const FacedPoints& input, const InsideRule& inside,
+                          const std::string& origin) {
+  std::optional<Primitive> primitive;
+  if (inside.rule) {
+    Polyhedron polyhedron = with_convex_facets(input, inside.warn, true);
+    std::optional<ConvexPolytope> convex;
+    try {
+      convex = as_convex_polytope(polyhedron);
+    } catch (const Error& error) {
+      if (error.id() != ErrorId::InvertedMesh) throw;
+    }
+    primitive = convex ? Primitive{*std::move(convex)}
+                       : only_primitive(solid_of_mesh(std::move(polyhedron), inside));
+  } else {
+    primitive = make_polyhedron(input, inside.warn);
+  }
+  if (!primitive) return Solid::empty();
+  primitive->origin = origin;
+  return Solid::primitive(*std::move(primitive));
 }
 
 }  // namespace exactcsg::io::openscad

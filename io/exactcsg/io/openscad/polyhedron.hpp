@@ -13,13 +13,15 @@
 // 3. If the result is exactly convex it becomes a ConvexPolytope, otherwise a PolyhedralMesh.
 //
 // LAW polyhedron.1  no vertex is moved and none added.
-// Not promised: repair. A mesh that is open, inside out, or meets itself is refused by name.
+// Not promised: repair. A mesh that is open, inside out, or meets itself is refused by name, unless
+// there is a rule for its inside.
 
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "exactcsg/io/mesh/solid_of_mesh.hpp"
 #include "exactcsg/solid/primitive.hpp"
 
 namespace exactcsg::io::openscad {
@@ -36,5 +38,12 @@ struct FacedPoints {
 // COST: O(n log n) expected, O(m^2) signs for a non-convex face of m vertices.
 Primitive make_polyhedron(const FacedPoints& input,
                           const std::function<void(const std::string&)>& warn);
+
+// The same with a rule for the inside, if one is given: then a polyhedron that meets itself or is
+// inside out is decided by it, and faces whose outlines cross themselves are split round a point
+// that is added. Empty if the rule holds nowhere. `origin` is what messages call the primitive.
+// THROWS as make_polyhedron; with a rule neither InvertedMesh nor SelfIntersectingMesh
+Solid solid_of_polyhedron(const FacedPoints& input, const InsideRule& inside,
+                          const std::string& origin);
 
 }  // namespace exactcsg::io::openscad

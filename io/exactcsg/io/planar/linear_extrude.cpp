@@ -295,22 +295,23 @@ Polyhedron sweep_through(const Section& section, const std::vector<Level>& level
 // OpenSCAD's choice of diagonals under a ridge can fold a side over onto its neighbour ("ears");
 // where it does, the diagonals that cannot are taken.
 Solid swept_solid(const Section& section, const std::vector<Level>& levels,
-                  const LinearExtrusion& extrusion) {
+                  const LinearExtrusion& extrusion, const InsideRule& inside) {
   const auto& top = levels.back().scale;
   const bool ridge = (top[0] == 0) != (top[1] == 0);
   try {
     return Solid::primitive(
         {make_mesh(sweep_through(section, levels, extrusion, RidgeDiagonals::OfOpenScad))});
   } catch (const Error& error) {
-    if (!ridge || error.id() != ErrorId::SelfIntersectingMesh) throw;
+    if (error.id() != ErrorId::SelfIntersectingMesh || (!ridge && !inside.rule)) throw;
   }
-  return Solid::primitive(
-      {make_mesh(sweep_through(section, levels, extrusion, RidgeDiagonals::OutsideTheFigure))});
+  return solid_of_mesh(sweep_through(section, levels, extrusion, RidgeDiagonals::OutsideTheFigure),
+                       inside);
 }
 
 }  // namespace
 
-Solid linear_extrude(const PlanarTree& tree, const LinearExtrusion& extrusion) {
+Solid linear_extrude(const PlanarTree& tree, const LinearExtrusion& extrusion,
+                     const InsideRule& inside) {
   if (extrusion.lower >= extrusion.upper) return Solid::empty();
   std::vector<Level> levels = extrusion.levels;
   if (levels.empty()) levels.push_back({1, 0, extrusion.scale});
@@ -329,7 +330,7 @@ Solid linear_extrude(const PlanarTree& tree, const LinearExtrusion& extrusion) {
   }
   std::vector<Solid> members;
   for (const OutlineComponent& component : outline.components) {
-    members.push_back(swept_solid(section_of(outline, component), levels, extrusion));
+    members.push_back(swept_solid(section_of(outline, component), levels, extrusion, inside));
   }
   return unite_all(std::move(members));
 }

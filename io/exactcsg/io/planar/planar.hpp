@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "exactcsg/io/mesh/solid_of_mesh.hpp"
 #include "exactcsg/solid/solid.hpp"
 
 namespace exactcsg::io {
@@ -64,9 +65,10 @@ struct LinearExtrusion {
 // quadrilaterals split along the shorter diagonal in xy as OpenSCAD does; scale 0 ends in an apex
 // or a ridge. Empty if lower >= upper.
 //
-// THROWS Error(BadArgument) for a negative scale, or a scale of 0 below the top; and
-// Error(SelfIntersectingMesh) if the twist of a slice makes the sides cross.
-Solid linear_extrude(const PlanarTree& tree, const LinearExtrusion& extrusion);
+// THROWS Error(BadArgument) for a negative scale, or a scale of 0 below the top; and, without a
+// rule for the inside, Error(SelfIntersectingMesh) if the twist of a slice makes the sides cross.
+Solid linear_extrude(const PlanarTree& tree, const LinearExtrusion& extrusion,
+                     const InsideRule& inside = {});
 
 // The outline turned about the z axis through the given directions, one per ring: its point (x, y)
 // becomes (|x| u, y) for the direction u. The directions go once round at most, in either sense;

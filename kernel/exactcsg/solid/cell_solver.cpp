@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/cell_solver.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "exactcsg/csg/membership.hpp"
+#include "exactcsg/solid/classify.hpp"
+
+namespace exactcsg {
+
+using csg::Membership;
+
+CellSolver::CellSolver(const Scene& scene, const EvaluateOptions& options)
+    : scene_(scene),
+      decomposition_(scene, options.facets_per_cell, options.progress),
+      evaluators_(
+          [&scene, progress = options.progress] { return CellEvaluator(scene, progress); }) {}
+
+// A cell with one primitive only needs no division: most of a scene ends there.
+EvaluationTask CellSolver::prepared(CellTask cell) const {
+  EvaluationTask task{std::move(cell), std::nullopt};
+  if (!decomposition_.is_leaf(task.cell) && !decomposition_.is_one_primitive(task.cell)) {
+    task.division = decomposition_.choose_division(task.cell);
+  }
+  return task;
+}
+
+std::vector<EvaluationTask> CellSolver::divide(EvaluationTask& task) const {
+  std::vector<EvaluationTask> children;
+  children.reserve(2);
+  for (CellTask& child : decomposition_.divide(task.cell, *task.division)) {
+    children.push_back(prepared(std::move(child)));
+  }
+  return children;
+}
+
+bool CellSolver::solve(const CellTask& cell, PieceBuffer& buffer,
+                       TierStatistics& statistics) const {
+  if (cell.facet_count == 0) return false;
+  if (decomposition_.is_one_primitive(cell)) {
+    emit_primitive(cell, buffer);
+    return false;
+  }
+  thread_local std::vector<CellFacet> facets;
+  decomposition_.collect_facets(cell, facets);
+  evaluators_.local().evaluate(facets, cell.tree, buffer, statistics);
+  return true;
+}
+
+// The only primitive of the cell: its facets are boundary as they are, or not at all.
+void CellSolver::emit_primitive(const CellTask& cell, PieceBuffer& buffer) const {
+  const auto truth = [&](Membership status) {
+    return csg::membership_of(cell.tree, [&](PrimitiveIndex) { return status; });
+  };
+  const Membership inside = truth(Membership::In);
+  if (inside == truth(Membership::Out)) return;
+  const PrimitiveFacets& facets = cell.primitives.front();
+  const auto add = [&](FacetIndex facet, std::uint64_t share, std::span<const Corner> corners) {
+    const OrientedPlaneRef plane = scene_.facets[facet].plane;
+    const int sense = inside == Membership::In ? plane.sense : -plane.sense;
+    buffer.add({plane.plane, static_cast<signed char>(sense)}, plane.sense, facet, share, corners);
+  };
+  const bool convex = scene_.primitives[facets.primitive].convex;
+  buffer.pieces.reserve(buffer.pieces.size() + facets.count());
+  for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
+    const FacetIndex facet = cell.whole_facet(scene_, facets, i);
+    add(facet, facet_share::whole, {});
+    buffer.pieces.back().isolated = convex && is_inside(cell.cell, facet);
+  }
+  buffer.corners.reserve(buffer.corners.size() + cell.corners.size());
+  for (const ClippedFacet& facet : cell.clipped_of(facets)) {
+    add(facet.facet, facet.share, cell.corners_of(facet));
+  }
+}
+
+// A whole facet in the open cell.
+bool CellSolver::is_inside(const Cell& cell, FacetIndex facet) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Range& bounds = scene_.bounds.facets[axis][facet];
+    if (!(bounds.lower > cell.lower[axis] && bounds.upper < cell.upper[axis])) return false;
+  }
+  return true;
+}
+
+// A bounded solid has no boundary at the root cell's walls, and its complement has the space there.
+void require_bounded(const Solid& solid, const Scene& scene,
+                     const std::vector<PieceBuffer>& buffers) {
+  const auto is_root_wall = [&](PlaneRef plane) {
+    if (!plane.is_wall()) return false;
+    const auto axis = static_cast<std::size_t>(plane.wall_axis());
+    return plane.wall_position() == scene.root.lower[axis] ||
+           plane.wall_position() == scene.root.upper[axis];
+  };
+  const auto reaches_wall = [&](const Corner& corner) {
+    return !corner.vertex.is_point && std::any_of(std::begin(corner.vertex.planes),
+                                                  std::end(corner.vertex.planes), is_root_wall);
+  };
+  const auto is_unbounded_facet = [&](const BoundaryPiece& piece) {
+    if (piece.share != facet_share::whole) return false;
+    const std::span<const Corner> corners = scene.corners_of(piece.facet);
+    return std::any_of(corners.begin(), corners.end(), reaches_wall);
+  };
+  bool bounded = true;
+  for (const PieceBuffer& buffer : buffers) {
+    bounded = bounded && std::none_of(buffer.corners.begin(), buffer.corners.end(), reaches_wall) &&
+              std::none_of(buffer.pieces.begin(), buffer.pieces.end(), is_unbounded_facet);
+  }
+  const Point3 corner{rational_of(scene.root.lower[0]), rational_of(scene.root.lower[1]),
+                      rational_of(scene.root.lower[2])};
+  if (!bounded || classify(solid, corner) != PointClass::Out) {
+    throw Error(ErrorId::UnboundedSolid, {"a solid without bounds", "a bounded solid"});
+  }
+}
+
+}  // namespace exactcsg

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What becomes of the cells of a decomposition: which are divided, where, and the pieces of
+// boundary in those that are not. Shared by the evaluators. [Exact]
+
+#include <optional>
+#include <vector>
+
+#include "exactcsg/solid/decomposition.hpp"
+#include "exactcsg/solid/evaluate.hpp"
+#include "exactcsg/solid/per_thread.hpp"
+
+namespace exactcsg {
+
+// A task that has been looked at already: where to divide it, if anywhere.
+struct EvaluationTask {
+  CellTask cell;
+  std::optional<Division> division;
+};
+
+// For any number of threads.
+class CellSolver {
+ public:
+  // The scene outlives it.
+  CellSolver(const Scene& scene, const EvaluateOptions& options);
+
+  const Decomposition& decomposition() const { return decomposition_; }
+
+  EvaluationTask prepared(CellTask cell) const;
+  // REQUIRES the task has a division.
+  std::vector<EvaluationTask> divide(EvaluationTask& task) const;
+  // Appends the pieces of boundary in the cell. True if that took two-sided classification.
+  bool solve(const CellTask& cell, PieceBuffer& buffer, TierStatistics& statistics) const;
+
+ private:
+  void emit_primitive(const CellTask& cell, PieceBuffer& buffer) const;
+  bool is_inside(const Cell& cell, FacetIndex facet) const;
+
+  const Scene& scene_;
+  Decomposition decomposition_;
+  mutable PerThread<CellEvaluator> evaluators_;
+};
+
+// THROWS Error(UnboundedSolid) unless these pieces, in the cells of this scene, are the boundary of
+// a bounded solid.
+void require_bounded(const Solid& solid, const Scene& scene,
+                     const std::vector<PieceBuffer>& buffers);
+
+}  // namespace exactcsg

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Exact meeting points of planes that are known to share two points, as facets of one polytope do,
+// against Cramer's rule in rationals.
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "exactcsg/number/geometry.hpp"
+#include "exactcsg/number/homogeneous.hpp"
+#include "number/reference.hpp"
+
+namespace exactcsg {
+namespace {
+
+class RandomPoints {
+ public:
+  explicit RandomPoints(std::uint64_t seed) : random_(seed) {}
+
+  // Small integers, so that coordinates agree now and then, decimals, or long fractions.
+  Point3 operator()(int kind) { return {number(kind), number(kind), number(kind)}; }
+
+ private:
+  long below(long n) { return static_cast<long>(random_() % static_cast<std::uint64_t>(n)); }
+  Rational number(int kind) {
+    if (kind == 0) return below(7) - 3;
+    Rational result(below(2000001) - 1000000, kind == 1 ? 1000 : 1 + below(1000000));
+    if (kind == 3) result = result * result + Rational(below(1000), 1L << below(60));
+    result.canonicalize();
+    return result;
+  }
+
+  std::mt19937_64 random_;
+};
+
+// Equal rationals are compared by numerators and denominators: the result is in lowest terms.
+TEST(MeetingPoint, OfALineAndAPlane) {
+  RandomPoints random(1);
+  int compared = 0;
+  for (int round = 0; round < 4000; ++round) {
+    std::array<Point3, 5> points;
+    for (Point3& point : points) point = random(round % 4);
+    const auto& [p, q, a, b, c] = points;
+    // Any two planes through p and q.
+    const Point3 r = random(0);
+    const Point3 s = random(0);
+    const auto first = reference::plane_through(p, q, r);
+    const auto second = reference::plane_through(p, q, s);
+    const auto third = reference::plane_through(a, b, c);
+    if (reference::determinant(first, second, third) == 0) continue;
+    ++compared;
+    EXPECT_EQ(meeting_point_of_line(homogeneous_of(p), homogeneous_of(q), plane_through(a, b, c)),
+              reference::meeting_point(first, second, third));
+  }
+  EXPECT_GT(compared, 2000);
+}
+
+TEST(MeetingPoint, OfFacetsOfTetrahedra) {
+  RandomPoints random(2);
+  int compared = 0;
+  for (int round = 0; round < 40; ++round) {
+    Geometry::Builder builder;
+    std::vector<reference::RationalPlane> exact;
+    for (int tetrahedron = 0; tetrahedron < 2; ++tetrahedron) {
+      std::array<Point3, 4> corners;
+      for (Point3& corner : corners) corner = random(1 + round % 3);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::array<Point3, 3> facet{corners[(i + 1) % 4], corners[(i + 2) % 4],
+                                          corners[(i + 3) % 4]};
+        builder.add_plane(builder.add_point(facet[0]), builder.add_point(facet[1]),
+                          builder.add_point(facet[2]));
+        exact.push_back(reference::plane_through(facet[0], facet[1], facet[2]));
+      }
+    }
+    const Geometry geometry = std::move(builder).build();
+    const auto plane = [&](std::size_t i) {
+      return geometry.plane(static_cast<std::uint32_t>(i)).plane;
+    };
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        for (std::size_t k = 0; k < j; ++k) {
+          if (reference::determinant(exact[i], exact[j], exact[k]) == 0) continue;
+          ++compared;
+          EXPECT_EQ(geometry.exact_point(geometry.meet(plane(i), plane(j), plane(k))),
+                    reference::meeting_point(exact[i], exact[j], exact[k]));
+        }
+        // An edge and a wall.
+        const PlaneRef wall = PlaneRef::of_wall(Axis::Y, 0.75);
+        const reference::RationalPlane wall_plane{{0, 1, 0}, Rational(-3, 4)};
+        if (reference::determinant(exact[i], exact[j], wall_plane) == 0) continue;
+        EXPECT_EQ(geometry.exact_point(geometry.meet(plane(i), plane(j), wall)),
+                  reference::meeting_point(exact[i], exact[j], wall_plane));
+      }
+    }
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+}  // namespace
+}  // namespace exactcsg
