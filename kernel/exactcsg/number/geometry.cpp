@@ -42,7 +42,9 @@ std::optional<PointPair> common_points(const Geometry::Data& data, PlaneRef p, P
 }  // namespace
 
 Geometry::Geometry(std::unique_ptr<Data> data)
-    : data_(std::move(data)), approximate_(data_->planes.approximate()) {}
+    : data_(std::move(data)),
+      approximate_(data_->planes.approximate()),
+      approximate_points_(data_->points.approximate()) {}
 Geometry::~Geometry() = default;
 Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry& Geometry::operator=(Geometry&&) noexcept = default;
@@ -80,8 +82,6 @@ Point3 Geometry::exact_point(const Vertex& v) const {
   const auto [p, q, r] = data_->operands(v);
   return point_of(meeting_point(load<Integer>(p), load<Integer>(q), load<Integer>(r)));
 }
-
-Vertex Geometry::vertex(PointId id) const { return data_->points.vertex(id); }
 
 Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r) const {
   if (q < p) std::swap(p, q);

@@ -95,6 +95,27 @@ struct Vertex {
   double coordinate(Axis axis) const { return axis == Axis::X ? x : axis == Axis::Y ? y : z; }
 };
 
+// |true - stored| <= error for each coordinate; error 0 says that the doubles are the coordinates.
+// An error of infinity: the coordinates are outside the doubles' range, the stored ones mean
+// nothing.
+struct ApproximatePoint {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+  double error = 0;
+};
+
+inline Vertex vertex_of(PointId id, const ApproximatePoint& near) {
+  Vertex v;
+  v.x = near.x;
+  v.y = near.y;
+  v.z = near.z;
+  v.error = near.error;
+  v.point = id;
+  v.is_point = true;
+  return v;
+}
+
 class Geometry {
  public:
   class Builder;
@@ -113,7 +134,12 @@ class Geometry {
   const Point3& point(PointId id) const;
   Point3 exact_point(const Vertex& v) const;
 
-  Vertex vertex(PointId id) const;
+  Vertex vertex(PointId id) const {
+    return vertex_of(id, approximate_points_[static_cast<std::size_t>(id)]);
+  }
+  const ApproximatePoint& approximate(PointId id) const {
+    return approximate_points_[static_cast<std::size_t>(id)];
+  }
   // The meeting point of three planes. REQUIRES their normals to be linearly independent.
   // The certified error is small compared with the position (a badly conditioned meeting point is
   // computed exactly and rounded).
@@ -168,7 +194,8 @@ class Geometry {
   Sign side_beyond_filter(const Vertex& v, PlaneRef plane, TierStatistics& statistics) const;
 
   std::unique_ptr<Data> data_;
-  const ApproximatePlane* approximate_ = nullptr;  // by table index; owned by data_
+  const ApproximatePlane* approximate_ = nullptr;         // by table index; owned by data_
+  const ApproximatePoint* approximate_points_ = nullptr;  // by id; likewise
   friend class Builder;
 };
 

@@ -92,18 +92,6 @@ std::pair<PointId, bool> PointTable::find_or_add(const Point3& point) {
   return {PointId{id}, true};
 }
 
-Vertex PointTable::vertex(PointId id) const {
-  const ApproximatePoint& p = approximate(id);
-  Vertex v;
-  v.x = p.x;
-  v.y = p.y;
-  v.z = p.z;
-  v.error = p.error;
-  v.point = id;
-  v.is_point = true;
-  return v;
-}
-
 void PointTable::enlarge_slots() {
   const std::size_t size = std::max<std::size_t>(slots_.size() * 2, 64);
   slots_.assign(size, 0);

@@ -14,16 +14,6 @@
 
 namespace exactcsg {
 
-// |true - stored| <= error for each coordinate; error 0 says that the doubles are the coordinates.
-// An error of infinity: the coordinates are outside the doubles' range, the stored ones mean
-// nothing.
-struct ApproximatePoint {
-  double x = 0;
-  double y = 0;
-  double z = 0;
-  double error = 0;
-};
-
 ApproximatePoint approximate(const Point3& point);
 
 class PointTable {
@@ -38,7 +28,8 @@ class PointTable {
   const ApproximatePoint& approximate(PointId id) const {
     return approximate_[static_cast<std::size_t>(id)];
   }
-  Vertex vertex(PointId id) const;
+  const ApproximatePoint* approximate() const { return approximate_.data(); }  // by id
+  Vertex vertex(PointId id) const { return vertex_of(id, approximate(id)); }
 
  private:
   // Returns the id, and whether it is a new one, whose point is still to be set.

@@ -171,50 +171,87 @@ class Merger {
     if (progress_ != nullptr) progress_->check();
   }
 
+  // Of a piece: its vertices, and the planes of the sides from each to the next.
+  struct NumberedCorners {
+    std::vector<VertexNumber> vertices;
+    std::vector<PlaneRef> side_planes;
+
+    std::size_t size() const { return vertices.size(); }
+    VertexNumber next(std::size_t i) const { return vertices[i + 1 == size() ? 0 : i + 1]; }
+  };
+
   // Sets vertices_, edges_, settled_edges_ and settled_faces_.
   void number_vertices(const std::vector<PieceBuffer>& buffers) {
-    const InternedVertices interned = intern(geometry_, vertices_of(buffers), statistics_);
-    vertices_ = interned.distinct;
-    std::size_t meeting_points = 0;
-    std::vector<VertexNumber> numbers;
+    InternedVertices interned = intern(geometry_, vertices_of(buffers), statistics_);
+    vertices_ = std::move(interned.distinct);
+    reserve(buffers);
+    NumberedCorners corners;
     PieceNumber number = 0;
-    const std::size_t pieces = count_pieces(buffers);
-    polytope_of_piece_.reserve(pieces);
+    std::size_t first_meeting_point = 0;  // of the buffer
     for (const PieceBuffer& buffer : buffers) {
       for (const BoundaryPiece& piece : buffer.pieces) {
-        const std::span<const Corner> corners = buffer.corners_of(scene_, piece);
-        numbers.clear();
-        for (const Corner& corner : corners) {
-          numbers.push_back(
-              corner.vertex.is_point
-                  ? interned.number_of_point[static_cast<std::uint32_t>(corner.vertex.point)]
-                  : interned.number_of_meeting_point[meeting_points++]);
-        }
+        number_corners(buffer, piece, interned, first_meeting_point, corners);
         if (settled_.is_settled(piece)) {
-          add_settled_face(piece, number, corners, numbers);
+          add_settled_face(piece, number, corners);
         } else {
-          for (std::uint32_t i = 0; i < corners.size(); ++i) {
-            add_edge(piece, number, corners, numbers, i);
-          }
+          for (std::size_t i = 0; i < corners.size(); ++i) add_edge(piece, number, corners, i);
         }
         polytope_of_piece_.push_back(polytope_of(piece));
         ++number;
       }
+      first_meeting_point += buffer.meeting_points.size();
     }
     statistics_pieces_ = number;
   }
 
-  // Meeting points in the order of the pieces and their corners, and the points that occur.
+  std::span<const PointCorner> corners_of_facet(const BoundaryPiece& piece) const {
+    const SceneFacet& facet = scene_.facets[piece.facet];
+    return std::span(scene_.corners).subspan(facet.first_corner, facet.corner_count);
+  }
+
+  void number_corners(const PieceBuffer& buffer, const BoundaryPiece& piece,
+                      const InternedVertices& interned, std::size_t first_meeting_point,
+                      NumberedCorners& result) const {
+    result.vertices.clear();
+    result.side_planes.clear();
+    if (piece.share == facet_share::whole) {
+      for (const PointCorner& corner : corners_of_facet(piece)) {
+        result.vertices.push_back(
+            interned.number_of_point[static_cast<std::uint32_t>(corner.point)]);
+        result.side_planes.push_back(PlaneRef::of_table(corner.side_plane));
+      }
+      return;
+    }
+    for (const PieceCorner& corner : buffer.corners_of(piece)) {
+      result.vertices.push_back(
+          corner.is_point ? interned.number_of_point[corner.vertex]
+                          : interned.number_of_meeting_point[first_meeting_point + corner.vertex]);
+      result.side_planes.push_back(corner.side_plane);
+    }
+  }
+
+  // Meeting points in the order of the buffers, and the points that occur.
   CornerVertices vertices_of(const std::vector<PieceBuffer>& buffers) const {
     CornerVertices result;
     result.has_point.assign(geometry_.point_count(), false);
+    std::size_t meeting_points = 0;
+    for (const PieceBuffer& buffer : buffers) meeting_points += buffer.meeting_points.size();
+    result.meeting_points.reserve(meeting_points);
     for (const PieceBuffer& buffer : buffers) {
+      const std::size_t first = result.meeting_points.size();
+      result.meeting_points.resize(first + buffer.meeting_points.size(), nullptr);
       for (const BoundaryPiece& piece : buffer.pieces) {
-        for (const Corner& corner : buffer.corners_of(scene_, piece)) {
-          if (corner.vertex.is_point) {
-            result.has_point[static_cast<std::uint32_t>(corner.vertex.point)] = true;
+        if (piece.share == facet_share::whole) {
+          for (const PointCorner& corner : corners_of_facet(piece)) {
+            result.has_point[static_cast<std::uint32_t>(corner.point)] = true;
+          }
+          continue;
+        }
+        for (const PieceCorner& corner : buffer.corners_of(piece)) {
+          if (corner.is_point) {
+            result.has_point[corner.vertex] = true;
           } else {
-            result.meeting_points.push_back(&corner.vertex);
+            result.meeting_points[first + corner.vertex] = &buffer.meeting_points[corner.vertex];
           }
         }
       }
@@ -222,43 +259,70 @@ class Merger {
     return result;
   }
 
+  void reserve(const std::vector<PieceBuffer>& buffers) {
+    std::size_t settled_sides = 0;
+    std::size_t settled_faces = 0;
+    std::size_t edges = 0;
+    for (const PieceBuffer& buffer : buffers) {
+      for (const BoundaryPiece& piece : buffer.pieces) {
+        const std::size_t corners = piece.share == facet_share::whole
+                                        ? scene_.facets[piece.facet].corner_count
+                                        : piece.corner_count;
+        if (settled_.is_settled(piece)) {
+          settled_sides += corners;
+          ++settled_faces;
+        } else {
+          edges += corners;
+        }
+      }
+    }
+    polytope_of_piece_.reserve(count_pieces(buffers));
+    settled_faces_.reserve(settled_faces);
+    settled_sides_.reserve(settled_sides);
+    settled_edges_.reserve(settled_sides / 2);
+    // Settled faces have others beside them as well.
+    edges_.reserve(edges + edges / 4);
+  }
+
   // The edge from corner i to the next.
-  void add_edge(const BoundaryPiece& piece, PieceNumber number, std::span<const Corner> corners,
-                std::span<const VertexNumber> numbers, std::size_t i) {
-    VertexNumber from = numbers[i];
-    VertexNumber to = numbers[i + 1 == numbers.size() ? 0 : i + 1];
+  void add_edge(const BoundaryPiece& piece, PieceNumber number, const NumberedCorners& corners,
+                std::size_t i) {
+    VertexNumber from = corners.vertices[i];
+    VertexNumber to = corners.next(i);
     if (from == to) broken("a piece of boundary with two equal corners");
     if (piece.corner_sense != piece.plane.sense) std::swap(from, to);
-    edges_.push_back({piece.plane, corners[i].side_plane, from, to, number});
+    edges_.push_back({piece.plane, corners.side_planes[i], from, to, number});
   }
 
   void add_settled_face(const BoundaryPiece& piece, PieceNumber number,
-                        std::span<const Corner> corners, std::span<const VertexNumber> numbers) {
+                        const NumberedCorners& corners) {
+    const std::size_t count = corners.size();
     SettledFace face{piece.plane, number, static_cast<std::uint32_t>(settled_sides_.size()),
-                     static_cast<std::uint32_t>(corners.size()), true};
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const bool settled = settled_.is_settled(corners[i].side_plane);
-      settled_sides_.push_back({numbers[i], settled});
+                     static_cast<std::uint32_t>(count), true};
+    for (std::size_t i = 0; i < count; ++i) {
+      const PlaneRef side_plane = corners.side_planes[i];
+      const bool settled = settled_.is_settled(side_plane);
+      settled_sides_.push_back({corners.vertices[i], settled});
       if (!settled) {
         face.all_sides_settled = false;
-        add_edge(piece, number, corners, numbers, i);
+        add_edge(piece, number, corners, i);
         continue;
       }
-      const VertexNumber from = numbers[i];
-      const VertexNumber to = numbers[i + 1 == numbers.size() ? 0 : i + 1];
+      const VertexNumber from = corners.vertices[i];
+      const VertexNumber to = corners.next(i);
       if (from == to) broken("a piece of boundary with two equal corners");
       // The facet on the other side walks it from `to` to `from`.
       if (from > to) continue;
-      const auto [first, second] = std::minmax(piece.plane.plane, corners[i].side_plane);
+      const auto [first, second] = std::minmax(piece.plane.plane, side_plane);
       const bool isolated = settled_.is_isolated(first) || settled_.is_isolated(second);
       settled_edges_.push_back({first, second, from, to, polytope_of(piece), !isolated});
     }
     if (piece.corner_sense != piece.plane.sense) {
       // Corners and the sides between them, backwards from the same corner.
       const auto sides = std::span(settled_sides_).subspan(face.first_side);
-      for (std::size_t i = 0; i < sides.size(); ++i) {
-        sides[i].from = numbers[i == 0 ? 0 : numbers.size() - i];
-        sides[i].settled = settled_.is_settled(corners[numbers.size() - 1 - i].side_plane);
+      for (std::size_t i = 0; i < count; ++i) {
+        sides[i].from = corners.vertices[i == 0 ? 0 : count - i];
+        sides[i].settled = settled_.is_settled(corners.side_planes[count - 1 - i]);
       }
     }
     settled_faces_.push_back(face);
@@ -939,9 +1003,11 @@ class Merger {
 
 }  // namespace
 
-Boundary merge_pieces(const Scene& scene, const std::vector<PieceBuffer>& buffers, unsigned threads,
+Boundary merge_pieces(const Scene& scene, std::vector<PieceBuffer> buffers, unsigned threads,
                       Progress* progress) {
-  return Merger(scene, buffers, threads, progress).merge();
+  Merger merger(scene, buffers, threads, progress);
+  buffers = {};  // their memory is wanted now
+  return merger.merge();
 }
 
 }  // namespace exactcsg

@@ -22,10 +22,10 @@
 namespace exactcsg {
 
 // REQUIRES the pieces are what cell evaluation emits for one bounded solid: closed, and disjoint
-// but for their rims; a piece whose share is `whole` is a facet of the scene. THROWS
-// Error(InternalError) where they are not. The statistics of the result hold what merging itself
-// counted.
-Boundary merge_pieces(const Scene& scene, const std::vector<PieceBuffer>& buffers, unsigned threads,
+// but for their rims; a piece whose share is `whole` is a facet of the scene, of no half-space.
+// THROWS Error(InternalError) where they are not. The statistics of the result hold what merging
+// itself counted.
+Boundary merge_pieces(const Scene& scene, std::vector<PieceBuffer> buffers, unsigned threads,
                       Progress* progress);
 
 }  // namespace exactcsg

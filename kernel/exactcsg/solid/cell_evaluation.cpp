@@ -9,23 +9,6 @@ namespace exactcsg {
 
 using csg::Membership;
 
-void PieceBuffer::add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
-                      std::uint64_t share, std::span<const Corner> polygon) {
-  BoundaryPiece piece{outward, corner_sense, 0, 0, facet, share, false};
-  if (share != facet_share::whole) {
-    piece.first_corner = static_cast<std::uint32_t>(corners.size());
-    piece.corner_count = static_cast<std::uint32_t>(polygon.size());
-    corners.insert(corners.end(), polygon.begin(), polygon.end());
-  }
-  pieces.push_back(piece);
-}
-
-std::span<const Corner> PieceBuffer::corners_of(const Scene& scene,
-                                                const BoundaryPiece& piece) const {
-  if (piece.share == facet_share::whole) return scene.corners_of(piece.facet);
-  return std::span(corners).subspan(piece.first_corner, piece.corner_count);
-}
-
 CellEvaluator::CellEvaluator(const Scene& scene, Progress* progress)
     : scene_(scene),
       progress_(progress),
@@ -74,7 +57,7 @@ void CellEvaluator::order_primitives_for(const CellFacet& facet,
 }
 
 void CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree& tree,
-                             PieceBuffer& result, TierStatistics& statistics) {
+                             PieceCollector& result, TierStatistics& statistics) {
   result_ = &result;
   statistics_ = &statistics;
   build_local_forms(facets);
@@ -86,19 +69,18 @@ void CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree
     const bool outward_front = facet.polygon.plane.sense > 0;
     truth_.change(facet.primitive, outward_front ? BothSides{Membership::Out, Membership::In}
                                                  : BothSides{Membership::In, Membership::Out});
-    pool_.assign(facet.polygon.corners.begin(), facet.polygon.corners.end());
-    const std::size_t first_piece = result.pieces.size();
-    const std::size_t first_corner = result.corners.size();
+    pool_.clear();
+    facet.polygon.corners.append_to(pool_);
+    const PieceCollector::Mark before = result.mark();
     classify({0, pool_.size(), facet.share}, 0);
-    join_pieces(facet, first_piece, first_corner);
+    join_pieces(facet, before);
     truth_.change(facet.primitive, {});
   }
 }
 
 // Other primitives' planes may cut a facet that all of them leave alone in the end.
-void CellEvaluator::join_pieces(const CellFacet& facet, std::size_t first_piece,
-                                std::size_t first_corner) {
-  const auto pieces = std::span(result_->pieces).subspan(first_piece);
+void CellEvaluator::join_pieces(const CellFacet& facet, const PieceCollector::Mark& before) {
+  const std::span<const BoundaryPiece> pieces = result_->pieces_since(before);
   if (pieces.size() < 2 || facet.share == 0) return;
   std::uint64_t sum = 0;
   for (const BoundaryPiece& piece : pieces) {
@@ -107,8 +89,7 @@ void CellEvaluator::join_pieces(const CellFacet& facet, std::size_t first_piece,
   }
   if (sum != facet.share) return;
   const BoundaryPiece joined = pieces.front();
-  result_->pieces.resize(first_piece);
-  result_->corners.resize(first_corner);
+  result_->take_back_to(before);
   result_->add(joined.plane, joined.corner_sense, facet.facet, facet.share, facet.polygon.corners);
 }
 

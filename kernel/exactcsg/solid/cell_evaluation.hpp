@@ -15,39 +15,11 @@
 #include "exactcsg/csg/boolean_operator.hpp"
 #include "exactcsg/csg/maintained_traverse.hpp"
 #include "exactcsg/solid/local_form.hpp"
+#include "exactcsg/solid/piece_buffer.hpp"
 #include "exactcsg/solid/scene.hpp"
 #include "exactcsg/support/progress.hpp"
 
 namespace exactcsg {
-
-// How much of a facet a polygon is, as a share of `whole`: every cut into two halves the share of
-// either part, whatever their areas. The parts of a facet that have a share therefore add up to
-// `whole` only if none is missing. After 62 cuts a part has no share any more.
-namespace facet_share {
-inline constexpr std::uint64_t whole = std::uint64_t{1} << 62U;
-}
-
-struct BoundaryPiece {
-  OrientedPlaneRef plane;        // outward normal of the solid
-  signed char corner_sense = 1;  // corners are counter-clockwise about the stored normal if +1
-  // In the buffer's store; none of a whole facet, whose corners are the scene's.
-  std::uint32_t first_corner = 0;
-  std::uint32_t corner_count = 0;
-  FacetIndex facet = 0;     // of the scene, that this is a part of
-  std::uint64_t share = 0;  // of that facet
-  // A whole facet of a convex primitive, inside a cell in which nothing else is boundary.
-  bool isolated = false;
-};
-
-struct PieceBuffer {
-  std::vector<BoundaryPiece> pieces;
-  std::vector<Corner> corners;
-
-  std::span<const Corner> corners_of(const Scene& scene, const BoundaryPiece& piece) const;
-  // The corners are copied unless the share is that of a whole facet.
-  void add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
-           std::uint64_t share, std::span<const Corner> polygon);
-};
 
 // A facet polygon of a cell and the primitive it belongs to; those of one primitive are adjacent.
 struct CellFacet {
@@ -83,7 +55,7 @@ class CellEvaluator {
 
   // REQUIRES every primitive of the tree has facets in the cell, and every facet's primitive occurs
   // in the tree.
-  void evaluate(std::span<const CellFacet> facets, const PrunedTree& tree, PieceBuffer& result,
+  void evaluate(std::span<const CellFacet> facets, const PrunedTree& tree, PieceCollector& result,
                 TierStatistics& statistics);
 
  private:
@@ -103,7 +75,7 @@ class CellEvaluator {
   void build_local_forms(std::span<const CellFacet> facets);
   void order_primitives_for(const CellFacet& facet, std::span<const CellFacet> facets);
   void classify(Range piece, std::size_t next);
-  void join_pieces(const CellFacet& facet, std::size_t first_piece, std::size_t first_corner);
+  void join_pieces(const CellFacet& facet, const PieceCollector::Mark& before);
   void descend(Range piece, LocalPlace front, LocalPlace behind, std::size_t next);
 
   const Scene& scene_;
@@ -119,7 +91,7 @@ class CellEvaluator {
   std::vector<Corner> pool_;
   std::vector<Sign> signs_;
   const CellFacet* facet_ = nullptr;
-  PieceBuffer* result_ = nullptr;
+  PieceCollector* result_ = nullptr;
   TierStatistics* statistics_ = nullptr;
 };
 

@@ -14,8 +14,9 @@ using csg::Membership;
 CellSolver::CellSolver(const Scene& scene, const EvaluateOptions& options)
     : scene_(scene),
       decomposition_(scene, options.facets_per_cell, options.progress),
-      evaluators_(
-          [&scene, progress = options.progress] { return CellEvaluator(scene, progress); }) {}
+      workers_([&scene, progress = options.progress] {
+        return Worker{CellEvaluator(scene, progress), {}, {}};
+      }) {}
 
 // A cell with one primitive only needs no division: most of a scene ends there.
 EvaluationTask CellSolver::prepared(CellTask cell) const {
@@ -35,42 +36,41 @@ std::vector<EvaluationTask> CellSolver::divide(EvaluationTask& task) const {
   return children;
 }
 
-bool CellSolver::solve(const CellTask& cell, PieceBuffer& buffer,
-                       TierStatistics& statistics) const {
-  if (cell.facet_count == 0) return false;
-  if (decomposition_.is_one_primitive(cell)) {
-    emit_primitive(cell, buffer);
-    return false;
+CellSolver::Solution CellSolver::solve(const CellTask& cell, TierStatistics& statistics) const {
+  if (cell.facet_count == 0) return {};
+  Worker& worker = workers_.local();
+  const bool classified = !decomposition_.is_one_primitive(cell);
+  if (classified) {
+    decomposition_.collect_facets(cell, worker.facets);
+    worker.evaluator.evaluate(worker.facets, cell.tree, worker.collector, statistics);
+  } else {
+    emit_primitive(cell, worker.collector);
   }
-  thread_local std::vector<CellFacet> facets;
-  decomposition_.collect_facets(cell, facets);
-  evaluators_.local().evaluate(facets, cell.tree, buffer, statistics);
-  return true;
+  return {worker.collector.take(), classified};
 }
 
 // The only primitive of the cell: its facets are boundary as they are, or not at all.
-void CellSolver::emit_primitive(const CellTask& cell, PieceBuffer& buffer) const {
+void CellSolver::emit_primitive(const CellTask& cell, PieceCollector& result) const {
   const auto truth = [&](Membership status) {
     return csg::membership_of(cell.tree, [&](PrimitiveIndex) { return status; });
   };
   const Membership inside = truth(Membership::In);
   if (inside == truth(Membership::Out)) return;
   const PrimitiveFacets& facets = cell.primitives.front();
-  const auto add = [&](FacetIndex facet, std::uint64_t share, std::span<const Corner> corners) {
-    const OrientedPlaneRef plane = scene_.facets[facet].plane;
+  const auto outward = [&](const OrientedPlaneRef& plane) {
     const int sense = inside == Membership::In ? plane.sense : -plane.sense;
-    buffer.add({plane.plane, static_cast<signed char>(sense)}, plane.sense, facet, share, corners);
+    return OrientedPlaneRef{plane.plane, static_cast<signed char>(sense)};
   };
   const bool convex = scene_.primitives[facets.primitive].convex;
-  buffer.pieces.reserve(buffer.pieces.size() + facets.count());
   for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
     const FacetIndex facet = cell.whole_facet(scene_, facets, i);
-    add(facet, facet_share::whole, {});
-    buffer.pieces.back().isolated = convex && is_inside(cell.cell, facet);
+    const OrientedPlaneRef plane = scene_.facets[facet].plane;
+    result.add(outward(plane), plane.sense, facet, facet_share::whole, {},
+               convex && is_inside(cell.cell, facet));
   }
-  buffer.corners.reserve(buffer.corners.size() + cell.corners.size());
   for (const ClippedFacet& facet : cell.clipped_of(facets)) {
-    add(facet.facet, facet.share, cell.corners_of(facet));
+    const OrientedPlaneRef plane = scene_.facets[facet.facet].plane;
+    result.add(outward(plane), plane.sense, facet.facet, facet.share, cell.corners_of(facet));
   }
 }
 
@@ -92,19 +92,19 @@ void require_bounded(const Solid& solid, const Scene& scene,
     return plane.wall_position() == scene.root.lower[axis] ||
            plane.wall_position() == scene.root.upper[axis];
   };
-  const auto reaches_wall = [&](const Corner& corner) {
-    return !corner.vertex.is_point && std::any_of(std::begin(corner.vertex.planes),
-                                                  std::end(corner.vertex.planes), is_root_wall);
+  const auto reaches_wall = [&](const Vertex& meeting_point) {
+    return std::any_of(std::begin(meeting_point.planes), std::end(meeting_point.planes),
+                       is_root_wall);
   };
-  const auto is_unbounded_facet = [&](const BoundaryPiece& piece) {
-    if (piece.share != facet_share::whole) return false;
-    const std::span<const Corner> corners = scene.corners_of(piece.facet);
-    return std::any_of(corners.begin(), corners.end(), reaches_wall);
+  const auto is_whole_half_space = [&](const BoundaryPiece& piece) {
+    return piece.share == facet_share::whole && scene.facets[piece.facet].is_half_space;
   };
   bool bounded = true;
   for (const PieceBuffer& buffer : buffers) {
-    bounded = bounded && std::none_of(buffer.corners.begin(), buffer.corners.end(), reaches_wall) &&
-              std::none_of(buffer.pieces.begin(), buffer.pieces.end(), is_unbounded_facet);
+    bounded =
+        bounded &&
+        std::none_of(buffer.meeting_points.begin(), buffer.meeting_points.end(), reaches_wall) &&
+        std::none_of(buffer.pieces.begin(), buffer.pieces.end(), is_whole_half_space);
   }
   const Point3 corner{rational_of(scene.root.lower[0]), rational_of(scene.root.lower[1]),
                       rational_of(scene.root.lower[2])};

@@ -30,16 +30,26 @@ class CellSolver {
   EvaluationTask prepared(CellTask cell) const;
   // REQUIRES the task has a division.
   std::vector<EvaluationTask> divide(EvaluationTask& task) const;
-  // Appends the pieces of boundary in the cell. True if that took two-sided classification.
-  bool solve(const CellTask& cell, PieceBuffer& buffer, TierStatistics& statistics) const;
+  // The pieces of boundary in the cell, and whether that took two-sided classification.
+  struct Solution {
+    PieceBuffer pieces;
+    bool was_classified = false;
+  };
+  Solution solve(const CellTask& cell, TierStatistics& statistics) const;
 
  private:
-  void emit_primitive(const CellTask& cell, PieceBuffer& buffer) const;
+  struct Worker {
+    CellEvaluator evaluator;
+    std::vector<CellFacet> facets;
+    PieceCollector collector;
+  };
+
+  void emit_primitive(const CellTask& cell, PieceCollector& result) const;
   bool is_inside(const Cell& cell, FacetIndex facet) const;
 
   const Scene& scene_;
   Decomposition decomposition_;
-  mutable PerThread<CellEvaluator> evaluators_;
+  mutable PerThread<Worker> workers_;
 };
 
 // THROWS Error(UnboundedSolid) unless these pieces, in the cells of this scene, are the boundary of

@@ -218,9 +218,9 @@ class CellTree::Builder {
     built.update.renewed_cells = 1;
     auto leaf = std::make_shared<Leaf>();
     leaf->task = std::move(task.cell);
-    if (working_.solver.solve(leaf->task, leaf->pieces, built.update.tiers)) {
-      built.update.evaluated_cells = 1;
-    }
+    CellSolver::Solution solution = working_.solver.solve(leaf->task, built.update.tiers);
+    if (solution.was_classified) built.update.evaluated_cells = 1;
+    leaf->pieces = std::move(solution.pieces);
     if (leaf->pieces.pieces.empty() && leaf->task.facet_count != 0) {
       forget(working_, leaf->task, built.update.tiers);
     }

@@ -208,8 +208,7 @@ class SinglePoint {
     std::vector<FacetPolygon> polygons;
     for (const std::size_t f : holding) {
       const SceneFacet& facet = scene.facets[f];
-      polygons.push_back(
-          {facet.plane, std::span(scene.corners).subspan(facet.first_corner, facet.corner_count)});
+      polygons.push_back({facet.plane, scene.corners_of(facet)});
     }
     std::vector<LocalNode> nodes;
     TierStatistics statistics;

@@ -30,15 +30,23 @@ constexpr std::size_t inseparable_planes = 3;
 // Where a facet is with respect to a wall.
 enum class WallSide : unsigned char { Below, Above, Both, Within };
 
-WallSide exact_wall_side(const Geometry& geometry, std::span<const Corner> corners,
+WallSide exact_wall_side(const Geometry& geometry, const CornerView& corners,
                          const Division& division, std::vector<Sign>& signs,
                          TierStatistics& statistics) {
   signs.resize(corners.size());
   bool below = false;
   bool above = false;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    signs[i] = geometry.compare_coordinate(corners[i].vertex, division.axis, division.position,
-                                           statistics);
+    const auto [value, error] = corners.coordinate(i, division.axis);
+    const double difference = value - division.position;
+    // The filter of compare_coordinate, without the vertex.
+    if (std::abs(difference) > error * (1 + 0x1p-50)) {
+      signs[i] = difference > 0 ? Sign::Positive : Sign::Negative;
+      statistics.record(Tier::Double, false);
+    } else {
+      signs[i] = geometry.compare_coordinate(corners.vertex(i), division.axis, division.position,
+                                             statistics);
+    }
     below |= signs[i] == Sign::Negative;
     above |= signs[i] == Sign::Positive;
   }
@@ -147,7 +155,7 @@ class Decomposition::Divider {
     return result;
   }
 
-  WallSide exact_side(std::span<const Corner> corners) {
+  WallSide exact_side(const CornerView& corners) {
     return exact_wall_side(scene_.geometry, corners, division_, scratch_.signs, task_.statistics);
   }
 
@@ -233,7 +241,7 @@ class Decomposition::Divider {
 
   // Not a half-space, whose facet is cut off by the root cell's walls.
   bool is_bounded(PrimitiveIndex primitive) const {
-    return scene_.corners_of(scene_.primitives[primitive].first_facet).front().vertex.is_point;
+    return !scene_.facets[scene_.primitives[primitive].first_facet].is_half_space;
   }
 
   Membership status_of_mesh(const PrimitiveFacets& facets) const {
@@ -331,7 +339,7 @@ class Decomposition::Divider {
     }
   }
 
-  void cut(FacetIndex facet, std::uint64_t share, std::span<const Corner> corners) {
+  void cut(FacetIndex facet, std::uint64_t share, const CornerView& corners) {
     // The signs are needed again; the filter makes them cheap.
     exact_side(corners);
     const PolygonCut cut(scene_.geometry, corners, scene_.facets[facet].plane.plane,
@@ -564,13 +572,17 @@ bool Decomposition::has_facet_in_wall(const CellTask& task, const Division& divi
   const auto axis = static_cast<std::size_t>(division.axis);
   std::vector<Sign> signs;
   TierStatistics unused;
-  const auto clearly_off = [&](const Corner& corner) {
-    const double distance = std::abs(corner.vertex.coordinate(division.axis) - division.position);
-    return distance > corner.vertex.error * (1 + 0x1p-40) + 0x1p-50 * std::abs(division.position);
+  const auto any_is_clearly_off = [&](const CornerView& corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto [value, error] = corners.coordinate(i, division.axis);
+      const double distance = std::abs(value - division.position);
+      if (distance > error * (1 + 0x1p-40) + 0x1p-50 * std::abs(division.position)) return true;
+    }
+    return false;
   };
-  const auto is_in_wall = [&](const Range& bounds, std::span<const Corner> corners) {
+  const auto is_in_wall = [&](const Range& bounds, const CornerView& corners) {
     if (wall_side(bounds, division) != WallSide::Both) return false;
-    return std::none_of(corners.begin(), corners.end(), clearly_off) &&
+    return !any_is_clearly_off(corners) &&
            exact_wall_side(scene_.geometry, corners, division, signs, unused) == WallSide::Within;
   };
   for (const PrimitiveFacets& facets : task.primitives) {

@@ -35,9 +35,9 @@ class Evaluation {
     result.tiers = task.cell.statistics;
     result.cells = 1;
     if (progress_ != nullptr) progress_->advance(task.cell.facet_count);
-    PieceBuffer buffer;
-    if (solver_.solve(task.cell, buffer, result.tiers)) result.evaluated_cells = 1;
-    if (!buffer.pieces.empty()) result.buffers.push_back(std::move(buffer));
+    CellSolver::Solution solution = solver_.solve(task.cell, result.tiers);
+    if (solution.was_classified) result.evaluated_cells = 1;
+    if (!solution.pieces.pieces.empty()) result.buffers.push_back(std::move(solution.pieces));
     return result;
   }
 
@@ -79,13 +79,15 @@ CellResult run(const Scene& scene, const EvaluateOptions& options) {
 
 Boundary evaluate(const Solid& solid, const EvaluateOptions& options) {
   if (options.progress != nullptr) options.progress->begin("prepare", 0);
-  const Scene scene = make_scene(solid);
+  Scene scene = make_scene(solid);
   if (options.progress != nullptr) options.progress->begin("decompose", scene.facets.size());
   CellResult result = run(scene, options);
   require_bounded(solid, scene, result.buffers);
   restore_whole_facets(scene, result.buffers);
   if (options.progress != nullptr) options.progress->begin("merge", 0);
-  Boundary boundary = merge_pieces(scene, result.buffers, options.threads, options.progress);
+  scene.bounds = {};
+  Boundary boundary =
+      merge_pieces(scene, std::move(result.buffers), options.threads, options.progress);
   boundary.statistics.tiers += result.tiers;
   boundary.statistics.primitives = scene.primitives.size();
   boundary.statistics.facets = scene.facets.size();

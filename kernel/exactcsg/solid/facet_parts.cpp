@@ -28,9 +28,9 @@ class FacetCutter {
   std::vector<FacetPart> cut(std::span<const FacetIndex> others) {
     std::vector<Segment> segments;
     for (const FacetIndex other : others) add_segments(scene_.facets[other], segments);
-    const auto corners = corners_of(facet_);
-    pending_.push_back(
-        {{{corners.begin(), corners.end()}, facet_share::whole}, std::move(segments)});
+    FacetPart whole{{}, facet_share::whole};
+    scene_.corners_of(facet_).append_to(whole.corners);
+    pending_.push_back({std::move(whole), std::move(segments)});
     while (!pending_.empty()) {
       Region region = std::move(pending_.back());
       pending_.pop_back();
@@ -45,17 +45,14 @@ class FacetCutter {
     std::vector<Segment> segments;  // each reaches the part along some length
   };
 
-  std::span<const Corner> corners_of(const SceneFacet& facet) const {
-    return std::span(scene_.corners).subspan(facet.first_corner, facet.corner_count);
-  }
   PlaneRef own_plane() const { return facet_.plane.plane; }
 
   void add_segments(const SceneFacet& other, std::vector<Segment>& segments) {
-    const std::span<const Corner> corners = corners_of(other);
+    const CornerView corners = scene_.corners_of(other);
     if (other.plane.plane == own_plane()) {
       for (std::size_t k = 0; k < corners.size(); ++k) {
-        const Vertex& next = corners[k + 1 == corners.size() ? 0 : k + 1].vertex;
-        add_clipped({corners[k].side_plane, corners[k].vertex, next}, segments);
+        const Vertex next = corners.vertex(k + 1 == corners.size() ? 0 : k + 1);
+        add_clipped({corners.side_plane(k), corners.vertex(k), next}, segments);
       }
       return;
     }
@@ -66,16 +63,16 @@ class FacetCutter {
 
   // nullopt: nothing, or a single point.
   std::optional<Segment> crossing_of(const SceneFacet& other) {
-    const std::span<const Corner> corners = corners_of(other);
+    const CornerView corners = scene_.corners_of(other);
     split_signs(scene_.geometry, corners, own_plane(), signs_, statistics_);
     std::vector<Vertex> points;
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const Sign here = signs_[k];
       const Sign there = signs_[k + 1 == corners.size() ? 0 : k + 1];
-      if (here == Sign::Zero) points.push_back(corners[k].vertex);
+      if (here == Sign::Zero) points.push_back(corners.vertex(k));
       if (here != Sign::Zero && there == -here) {
         points.push_back(
-            scene_.geometry.meet(own_plane(), other.plane.plane, corners[k].side_plane));
+            scene_.geometry.meet(own_plane(), other.plane.plane, corners.side_plane(k)));
       }
     }
     if (points.size() < 2) return std::nullopt;
@@ -115,9 +112,9 @@ class FacetCutter {
 
   // What of the segment lies inside this facet.
   void add_clipped(Segment segment, std::vector<Segment>& segments) {
-    const std::span<const Corner> corners = corners_of(facet_);
+    const CornerView corners = scene_.corners_of(facet_);
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      Halves halves = halve(std::move(segment), corners[k].side_plane);
+      Halves halves = halve(std::move(segment), corners.side_plane(k));
       std::optional<Segment>& inner =
           inside_of(corners, k) == Sign::Positive ? halves.positive : halves.negative;
       if (!inner) return;
@@ -127,10 +124,10 @@ class FacetCutter {
   }
 
   // The side of the k-th side's plane that the polygon is on.
-  Sign inside_of(std::span<const Corner> corners, std::size_t k) {
+  Sign inside_of(const CornerView& corners, std::size_t k) {
     for (std::size_t step = 2; step < corners.size(); ++step) {
-      const Sign sign = scene_.geometry.side(corners[(k + step) % corners.size()].vertex,
-                                             corners[k].side_plane, statistics_);
+      const Sign sign = scene_.geometry.side(corners.vertex((k + step) % corners.size()),
+                                             corners.side_plane(k), statistics_);
       if (sign != Sign::Zero) return sign;
     }
     return Sign::Zero;

@@ -12,7 +12,7 @@ namespace exactcsg {
 
 struct FacetPart {
   std::vector<Corner> corners;
-  std::uint64_t share = 0;  // facet_share of cell_evaluation.hpp
+  std::uint64_t share = 0;  // facet_share of piece_buffer.hpp
 };
 
 // Of the facet and the others given: LAW parts.1  the parts cover the facet and are disjoint but

@@ -24,10 +24,10 @@ namespace {
 
 constexpr unsigned attempts = 64;
 
-DoubleBox box_of_corners(std::span<const Corner> corners) {
+DoubleBox box_of_corners(const CornerView& corners) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   DoubleBox box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  for (const Corner& corner : corners) {
+  for (const Corner corner : corners) {
     const std::array<double, 3> position{corner.vertex.x, corner.vertex.y, corner.vertex.z};
     for (std::size_t i = 0; i < 3; ++i) {
       const double slack = corner.vertex.error + 0x1p-51 * std::abs(position[i]);
@@ -42,8 +42,7 @@ std::vector<DoubleBox> boxes_of(const Scene& scene) {
   std::vector<DoubleBox> boxes;
   boxes.reserve(scene.facets.size());
   for (const SceneFacet& facet : scene.facets) {
-    boxes.push_back(
-        box_of_corners(std::span(scene.corners).subspan(facet.first_corner, facet.corner_count)));
+    boxes.push_back(box_of_corners(scene.corners_of(facet)));
   }
   return boxes;
 }
@@ -90,15 +89,15 @@ class FacetStabbing::Origin {
  public:
   // nullopt: the point that was tried does not lie inside the part.
   static std::optional<Origin> in(const Geometry& geometry, PlaneRef plane, Axis axis,
-                                  std::span<const Corner> part, unsigned attempt,
+                                  const CornerView& part, unsigned attempt,
                                   TierStatistics& statistics) {
     Origin origin(axis);
     std::array<double, 2> target{};
     double total = 0;
     for (std::size_t i = 0; i < part.size(); ++i) {
       const double w = weight(i, attempt);
-      target[0] += w * part[i].vertex.coordinate(origin.across_[0]);
-      target[1] += w * part[i].vertex.coordinate(origin.across_[1]);
+      target[0] += w * part.vertex(i).coordinate(origin.across_[0]);
+      target[1] += w * part.vertex(i).coordinate(origin.across_[1]);
       total += w;
     }
     std::array<PlaneRef, 2> walls;
@@ -111,13 +110,13 @@ class FacetStabbing::Origin {
     return origin;
   }
 
-  static Origin exactly_in(const Geometry& geometry, Axis axis, std::span<const Corner> part,
+  static Origin exactly_in(const Geometry& geometry, Axis axis, const CornerView& part,
                            unsigned attempt) {
     Origin origin(axis);
     Vector3 sum{0, 0, 0};
     unsigned total = 0;
     for (std::size_t i = 0; i < part.size(); ++i) {
-      const Point3 corner = geometry.exact_point(part[i].vertex);
+      const Point3 corner = geometry.exact_point(part.vertex(i));
       const unsigned w = weight(i, attempt);
       sum = {sum.x + w * corner.x, sum.y + w * corner.y, sum.z + w * corner.z};
       total += w;
@@ -174,14 +173,14 @@ class FacetStabbing::Origin {
   explicit Origin(Axis axis) : axis_(axis), across_{next_axis(axis), next_axis(next_axis(axis))} {}
 
   // On the same side of the plane of every side of the part as the part's own corners.
-  static bool is_inside(const Geometry& geometry, std::span<const Corner> part,
-                        const Vertex& vertex, TierStatistics& statistics) {
+  static bool is_inside(const Geometry& geometry, const CornerView& part, const Vertex& vertex,
+                        TierStatistics& statistics) {
     for (std::size_t i = 0; i < part.size(); ++i) {
-      const Sign here = geometry.side(vertex, part[i].side_plane, statistics);
+      const Sign here = geometry.side(vertex, part.side_plane(i), statistics);
       if (here == Sign::Zero) return false;
       for (std::size_t step = 2; step < part.size(); ++step) {
-        const Vertex& other = part[(i + step) % part.size()].vertex;
-        const Sign inside = geometry.side(other, part[i].side_plane, statistics);
+        const Vertex other = part.vertex((i + step) % part.size());
+        const Sign inside = geometry.side(other, part.side_plane(i), statistics);
         if (inside == Sign::Zero) continue;
         if (inside != here) return false;
         break;
@@ -200,7 +199,7 @@ class FacetStabbing::Origin {
 FacetStabbing::FacetStabbing(const Scene& scene)
     : scene_(scene), boxes_(boxes_of(scene)), hierarchy_(boxes_) {}
 
-WindingSides FacetStabbing::winding_sides(FacetIndex facet, std::span<const Corner> part,
+WindingSides FacetStabbing::winding_sides(FacetIndex facet, const CornerView& part,
                                           TierStatistics& statistics) const {
   const Geometry& geometry = scene_.geometry;
   const PlaneRef plane = scene_.facets[facet].plane.plane;
@@ -231,11 +230,11 @@ std::optional<WindingSides> FacetStabbing::shoot(FacetIndex facet, const Origin&
     ray.lower[static_cast<std::size_t>(axis)] = -infinity;
   }
   const auto shadow = [&](const SceneFacet& other, Sign up) {
-    const auto corners = std::span(scene_.corners).subspan(other.first_corner, other.corner_count);
+    const CornerView corners = scene_.corners_of(other);
     Shadow where = Shadow::On;
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Vertex& next = corners[k + 1 == corners.size() ? 0 : k + 1].vertex;
-      const Sign turn = origin.turn(geometry, corners[k].vertex, next) * up;
+      const Vertex next = corners.vertex(k + 1 == corners.size() ? 0 : k + 1);
+      const Sign turn = origin.turn(geometry, corners.vertex(k), next) * up;
       if (turn == Sign::Negative) return Shadow::Off;
       if (turn == Sign::Zero) where = Shadow::Edge;
     }

@@ -30,7 +30,7 @@ class FacetStabbing {
   // The winding numbers on either side of a convex part of a facet.
   // REQUIRES the inside of the part meets other facets at most in single points, or lies in them as
   // a whole
-  WindingSides winding_sides(FacetIndex facet, std::span<const Corner> part,
+  WindingSides winding_sides(FacetIndex facet, const CornerView& part,
                              TierStatistics& statistics) const;
 
  private:

@@ -94,7 +94,7 @@ class Filling {
         }
       } else if (!known[surface_.part[f]]) {
         known[surface_.part[f]] = true;
-        if (!as_outside(f, stabbing_.winding_sides(f, corners_of(f), unused))) return false;
+        if (!as_outside(f, stabbing_.winding_sides(f, scene_.corners_of(f), unused))) return false;
       }
     }
     return true;
@@ -105,13 +105,17 @@ class Filling {
     const std::size_t rounds = scene_.facets.size() / facets_per_round + 1;
     std::vector<PieceBuffer> buffers(rounds + 1);
     std::vector<TierStatistics> counted(rounds);
-    add_untouched(buffers[rounds], statistics);
+    PieceCollector untouched;
+    add_untouched(untouched, statistics);
+    buffers[rounds] = untouched.take();
     in_parallel(options_.threads, rounds, [&](std::size_t round) {
+      PieceCollector touched;
       const std::size_t end = std::min(scene_.facets.size(), (round + 1) * facets_per_round);
       for (std::size_t f = round * facets_per_round; f < end; ++f) {
         if (options_.progress != nullptr) options_.progress->check();
-        add_touched(static_cast<FacetIndex>(f), buffers[round], counted[round]);
+        add_touched(static_cast<FacetIndex>(f), touched, counted[round]);
       }
+      buffers[round] = touched.take();
       if (options_.progress != nullptr) options_.progress->advance(facets_per_round);
     });
     for (const TierStatistics& tiers : counted) statistics += tiers;
@@ -119,12 +123,7 @@ class Filling {
   }
 
  private:
-  std::span<const Corner> corners_of(FacetIndex f) const {
-    const SceneFacet& facet = scene_.facets[f];
-    return std::span(scene_.corners).subspan(facet.first_corner, facet.corner_count);
-  }
-
-  void add_untouched(PieceBuffer& buffer, TierStatistics& statistics) const {
+  void add_untouched(PieceCollector& result, TierStatistics& statistics) const {
     // Of each part's first facet, along its outward normal.
     std::vector<std::optional<WindingSides>> sides(scene_.facets.size());
     for (FacetIndex f = 0; f < scene_.facets.size(); ++f) {
@@ -132,31 +131,31 @@ class Filling {
       const signed char sense = scene_.facets[f].plane.sense;
       std::optional<WindingSides>& known = sides[surface_.part[f]];
       if (!known) {
-        known = stabbing_.winding_sides(f, corners_of(f), statistics);
+        known = stabbing_.winding_sides(f, scene_.corners_of(f), statistics);
         if (sense < 0) std::swap(known->front, known->behind);
       }
       WindingSides here = *known;
       if (sense < 0) std::swap(here.front, here.behind);
-      add_piece(f, here, facet_share::whole, corners_of(f), buffer);
+      add_piece(f, here, facet_share::whole, scene_.corners_of(f), result);
     }
   }
 
-  void add_touched(FacetIndex f, PieceBuffer& buffer, TierStatistics& statistics) const {
+  void add_touched(FacetIndex f, PieceCollector& result, TierStatistics& statistics) const {
     const std::span<const FacetIndex> partners = surface_.partners_of(f);
     if (partners.empty()) return;
     for (const FacetPart& part : parts_of_facet(scene_, f, partners, statistics)) {
       const WindingSides sides = stabbing_.winding_sides(f, part.corners, statistics);
-      if (sides.lowest == f) add_piece(f, sides, part.share, part.corners, buffer);
+      if (sides.lowest == f) add_piece(f, sides, part.share, part.corners, result);
     }
   }
 
   void add_piece(FacetIndex f, const WindingSides& sides, std::uint64_t share,
-                 std::span<const Corner> corners, PieceBuffer& buffer) const {
+                 const CornerView& corners, PieceCollector& result) const {
     const bool behind = is_inside(rule_, sides.behind);
     if (is_inside(rule_, sides.front) == behind) return;
     const OrientedPlaneRef plane = scene_.facets[f].plane;
     const auto outward = static_cast<signed char>(behind ? 1 : -1);
-    buffer.add({plane.plane, outward}, plane.sense, f, share, corners);
+    result.add({plane.plane, outward}, plane.sense, f, share, corners);
   }
 
   const Surface& surface_;
@@ -189,7 +188,7 @@ Boundary filled_boundary(Polyhedron polyhedron, FillRule rule, const EvaluateOpt
   std::vector<PieceBuffer> buffers = Filling(surface, scene, rule, options).pieces(tiers);
   restore_whole_facets(scene, buffers);
   if (options.progress != nullptr) options.progress->begin("merge", 0);
-  Boundary boundary = merge_pieces(scene, buffers, options.threads, options.progress);
+  Boundary boundary = merge_pieces(scene, std::move(buffers), options.threads, options.progress);
   boundary.statistics.tiers += tiers;
   boundary.statistics.primitives = 1;
   boundary.statistics.facets = scene.facets.size();

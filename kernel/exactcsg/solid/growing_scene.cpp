@@ -2,6 +2,7 @@
 #include "exactcsg/solid/growing_scene.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <tuple>
@@ -63,14 +64,14 @@ std::vector<DoubleBox> boxes_of(const Scene& scene) {
 }
 
 bool same_facet(const SceneFacet& a, const SceneFacet& b) {
-  return a.primitive == b.primitive && a.plane == b.plane && a.first_corner == b.first_corner &&
-         a.corner_count == b.corner_count;
+  return a.primitive == b.primitive && a.is_half_space == b.is_half_space && a.plane == b.plane &&
+         a.first_corner == b.first_corner && a.corner_count == b.corner_count;
 }
 
+// REQUIRES corners of half-spaces
 bool same_corner(const Corner& a, const Corner& b) {
-  if (a.side_plane != b.side_plane || a.vertex.is_point != b.vertex.is_point) return false;
-  if (a.vertex.is_point) return a.vertex.point == b.vertex.point;
-  return std::equal(std::begin(a.vertex.planes), std::end(a.vertex.planes),
+  return a.side_plane == b.side_plane &&
+         std::equal(std::begin(a.vertex.planes), std::end(a.vertex.planes),
                     std::begin(b.vertex.planes));
 }
 
@@ -132,7 +133,8 @@ bool GrowingScene::fits(Scene& larger) const {
                       longer.begin() + static_cast<std::ptrdiff_t>(shorter.size()), same);
   };
   return begins_with(larger.facets, present.facets, same_facet) &&
-         begins_with(larger.corners, present.corners, same_corner);
+         begins_with(larger.corners, present.corners, std::equal_to<>()) &&
+         begins_with(larger.half_space_corners, present.half_space_corners, same_corner);
 }
 
 bool GrowingScene::add(std::span<const Primitive> primitives) {

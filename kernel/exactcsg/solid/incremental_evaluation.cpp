@@ -298,24 +298,8 @@ Solid IncrementalEvaluation::State::solid() const {
 
 // Copies: merging makes whole facets of those of which all parts are there.
 std::vector<PieceBuffer> IncrementalEvaluation::State::gathered_pieces() const {
-  std::size_t pieces = 0;
-  std::size_t corners = 0;
-  cells_.for_each_leaf([&](const CellTree::Leaf& leaf) {
-    pieces += leaf.pieces.pieces.size();
-    corners += leaf.pieces.corners.size();
-  });
   std::vector<PieceBuffer> buffers(1);
-  PieceBuffer& all = buffers.front();
-  all.pieces.reserve(pieces);
-  all.corners.reserve(corners);
-  cells_.for_each_leaf([&](const CellTree::Leaf& leaf) {
-    const auto base = static_cast<std::uint32_t>(all.corners.size());
-    for (BoundaryPiece piece : leaf.pieces.pieces) {
-      piece.first_corner += base;
-      all.pieces.push_back(piece);
-    }
-    all.corners.insert(all.corners.end(), leaf.pieces.corners.begin(), leaf.pieces.corners.end());
-  });
+  cells_.for_each_leaf([&](const CellTree::Leaf& leaf) { append(leaf.pieces, buffers.front()); });
   return buffers;
 }
 
@@ -327,7 +311,8 @@ Boundary IncrementalEvaluation::State::boundary() {
   if (contains_full_ || working.has_half_spaces) require_bounded(solid(), working.scene, buffers);
   restore_whole_facets(working.scene, buffers);
   begin_progress("merge", 0);
-  Boundary boundary = merge_pieces(working.scene, buffers, options_.threads, options_.progress);
+  Boundary boundary =
+      merge_pieces(working.scene, std::move(buffers), options_.threads, options_.progress);
   boundary.statistics.tiers += last_.tiers;
   boundary.statistics.primitives = scene_.size();
   boundary.statistics.facets = working.scene.facets.size();

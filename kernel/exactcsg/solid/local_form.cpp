@@ -133,7 +133,8 @@ LocalPlace append_mesh_form(const Geometry& geometry, std::span<const FacetPolyg
   std::vector<OwnedPolygon> polygons;
   polygons.reserve(facets.size());
   for (const FacetPolygon& facet : facets) {
-    polygons.push_back({facet.plane, {facet.corners.begin(), facet.corners.end()}});
+    polygons.push_back({facet.plane, {}});
+    facet.corners.append_to(polygons.back().corners);
   }
   return Autopartition(geometry, nodes, statistics).partition(std::move(polygons));
 }
@@ -142,14 +143,14 @@ Membership mesh_membership(const Geometry& geometry, const Point3& point,
                            std::span<const FacetPolygon> facets) {
   const auto corners_of = [&](std::size_t f) {
     std::vector<Point3> corners;
-    for (const Corner& corner : facets[f].corners) {
+    for (const Corner corner : facets[f].corners) {
       corners.push_back(geometry.exact_point(corner.vertex));
     }
     return corners;
   };
   const auto bounds_of = [&](std::size_t f) {
-    DoubleBox box = box_of(facets[f].corners.front().vertex);
-    for (const Corner& corner : facets[f].corners) box = join(box, box_of(corner.vertex));
+    DoubleBox box = box_of(facets[f].corners.vertex(0));
+    for (const Corner corner : facets[f].corners) box = join(box, box_of(corner.vertex));
     return box;
   };
   return nearest_crossing(point, facets.size(), bounds_of, corners_of);

@@ -51,7 +51,7 @@ struct LocalNode {
 // A facet clipped to the cell.
 struct FacetPolygon {
   OrientedPlaneRef plane;
-  std::span<const Corner> corners;
+  CornerView corners;
 };
 
 // Appends the nodes of one primitive's local form and returns where a walk begins.

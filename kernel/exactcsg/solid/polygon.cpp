@@ -5,13 +5,13 @@
 
 namespace exactcsg {
 
-PlaneSplit split_signs(const Geometry& geometry, std::span<const Corner> polygon, PlaneRef plane,
+PlaneSplit split_signs(const Geometry& geometry, const CornerView& polygon, PlaneRef plane,
                        std::vector<Sign>& signs, TierStatistics& statistics) {
   signs.resize(polygon.size());
   bool negative = false;
   bool positive = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    signs[i] = geometry.side(polygon[i].vertex, plane, statistics);
+    signs[i] = geometry.side(polygon.vertex(i), plane, statistics);
     negative |= signs[i] == Sign::Negative;
     positive |= signs[i] == Sign::Positive;
   }
@@ -20,8 +20,8 @@ PlaneSplit split_signs(const Geometry& geometry, std::span<const Corner> polygon
   return positive ? PlaneSplit::AllPositive : PlaneSplit::InPlane;
 }
 
-PolygonCut::PolygonCut(const Geometry& geometry, std::span<const Corner> polygon,
-                       PlaneRef supporting, PlaneRef plane, std::span<const Sign> signs)
+PolygonCut::PolygonCut(const Geometry& geometry, const CornerView& polygon, PlaneRef supporting,
+                       PlaneRef plane, std::span<const Sign> signs)
     : plane_(plane) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -30,12 +30,12 @@ PolygonCut::PolygonCut(const Geometry& geometry, std::span<const Corner> polygon
     if (found == crossings_.size()) {
       throw Error(ErrorId::InternalError, {"a facet that is not convex", "a convex one"});
     }
-    crossings_[found++] = geometry.meet(supporting, polygon[i].side_plane, plane);
+    crossings_[found++] = geometry.meet(supporting, polygon.side_plane(i), plane);
   }
 }
 
-void PolygonCut::append_part(std::span<const Corner> polygon, std::span<const Sign> signs,
-                             Sign kept, std::vector<Corner>& result) const {
+void PolygonCut::append_part(const CornerView& polygon, std::span<const Sign> signs, Sign kept,
+                             std::vector<Corner>& result) const {
   const std::size_t count = polygon.size();
   std::size_t crossing = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -44,10 +44,10 @@ void PolygonCut::append_part(std::span<const Corner> polygon, std::span<const Si
     if (here == kept || here == Sign::Zero) {
       // A corner in the cutting plane whose next side leaves the kept part starts the cut side.
       const bool leaves = here == Sign::Zero && there != kept;
-      result.push_back({polygon[i].vertex, leaves ? plane_ : polygon[i].side_plane});
+      result.push_back({polygon.vertex(i), leaves ? plane_ : polygon.side_plane(i)});
     }
     if (here != Sign::Zero && there == -here) {
-      result.push_back({crossings_[crossing++], there == kept ? polygon[i].side_plane : plane_});
+      result.push_back({crossings_[crossing++], there == kept ? polygon.side_plane(i) : plane_});
     }
   }
 }

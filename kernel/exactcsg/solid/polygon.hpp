@@ -16,20 +16,20 @@ namespace exactcsg {
 enum class PlaneSplit : unsigned char { AllNegative, AllPositive, Both, InPlane };
 
 // The sides of all corners with respect to a plane, into `signs` (resized).
-PlaneSplit split_signs(const Geometry& geometry, std::span<const Corner> polygon, PlaneRef plane,
+PlaneSplit split_signs(const Geometry& geometry, const CornerView& polygon, PlaneRef plane,
                        std::vector<Sign>& signs, TierStatistics& statistics);
 
 // Where a plane crosses a convex polygon that lies in `supporting`, computed once for both parts.
 class PolygonCut {
  public:
   // REQUIRES `signs` of split_signs, which said Both.
-  PolygonCut(const Geometry& geometry, std::span<const Corner> polygon, PlaneRef supporting,
+  PolygonCut(const Geometry& geometry, const CornerView& polygon, PlaneRef supporting,
              PlaneRef plane, std::span<const Sign> signs);
 
   // The part of the polygon on the given side of the plane, appended to `result`. REQUIRES the
   // polygon and the signs given are still there. A new corner is the meeting point of the
   // supporting plane, the cut side's plane and the cutting plane.
-  void append_part(std::span<const Corner> polygon, std::span<const Sign> signs, Sign kept,
+  void append_part(const CornerView& polygon, std::span<const Sign> signs, Sign kept,
                    std::vector<Corner>& result) const;
 
  private:

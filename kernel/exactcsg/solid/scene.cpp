@@ -122,7 +122,7 @@ SceneBounds bounds_of(const Scene& scene) {
   }
   for (const SceneFacet& facet : scene.facets) {
     std::array<Range, 3> bounds;
-    widen(bounds, std::span(scene.corners).subspan(facet.first_corner, facet.corner_count));
+    widen(bounds, scene.corners_of(facet));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       result.facets[axis].push_back(bounds[axis]);
       Range& whole = result.primitives[axis][facet.primitive];
@@ -141,7 +141,7 @@ class SceneBuilder {
 
   Scene finish() && {
     Scene scene{
-        std::move(builder_).build(), std::move(primitives_), {}, {}, {}, std::move(tree_), {}};
+        std::move(builder_).build(), std::move(primitives_), {}, {}, {}, {}, std::move(tree_), {}};
     scene.root = root_cell();
     scene.facets.reserve(facets_.size());
     scene.corners.reserve(corner_total_);
@@ -290,18 +290,20 @@ class SceneBuilder {
   }
 
   void add_facet(Scene& scene, const PendingFacet& pending) const {
-    SceneFacet facet{pending.primitive, scene.geometry.plane(pending.plane),
-                     static_cast<std::uint32_t>(scene.corners.size()), 0};
-    if (pending.corner_count == 0) {
-      append_half_space_polygon(scene, facet.plane);
-    } else {
-      for (std::size_t i = 0; i < pending.corner_count; ++i) {
-        const PendingCorner& corner = corners_[pending.first_corner + i];
-        scene.corners.push_back(
-            {scene.geometry.vertex(corner.point), scene.geometry.plane(corner.side_plane).plane});
-      }
+    const bool is_half_space = pending.corner_count == 0;
+    const auto stored = [&] {
+      return static_cast<std::uint32_t>(is_half_space ? scene.half_space_corners.size()
+                                                      : scene.corners.size());
+    };
+    SceneFacet facet{pending.primitive, is_half_space, scene.geometry.plane(pending.plane),
+                     stored(), 0};
+    if (is_half_space) append_half_space_polygon(scene, facet.plane);
+    for (std::size_t i = 0; i < pending.corner_count; ++i) {
+      const PendingCorner& corner = corners_[pending.first_corner + i];
+      scene.corners.push_back(
+          {corner.point, scene.geometry.plane(corner.side_plane).plane.table_index()});
     }
-    facet.corner_count = static_cast<std::uint32_t>(scene.corners.size()) - facet.first_corner;
+    facet.corner_count = stored() - facet.first_corner;
     scene.facets.push_back(facet);
   }
 
@@ -342,7 +344,7 @@ class SceneBuilder {
         polygon.swap(kept);
       }
     }
-    scene.corners.insert(scene.corners.end(), polygon.begin(), polygon.end());
+    scene.half_space_corners.insert(scene.half_space_corners.end(), polygon.begin(), polygon.end());
   }
 
   Geometry::Builder builder_;
@@ -365,14 +367,14 @@ class SceneBuilder {
 
 }  // namespace
 
-void widen(std::array<Range, 3>& bounds, std::span<const Corner> corners) {
-  for (const Corner& corner : corners) {
-    const std::array<double, 3> position{corner.vertex.x, corner.vertex.y, corner.vertex.z};
+void widen(std::array<Range, 3>& bounds, const CornerView& corners) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto [value, error] = corners.coordinate(i, static_cast<Axis>(axis));
       // Widened by two units in the last place, for the rounding of this very sum.
-      const double slack = corner.vertex.error + 0x1p-51 * std::abs(position[axis]);
-      bounds[axis].lower = std::min(bounds[axis].lower, position[axis] - slack);
-      bounds[axis].upper = std::max(bounds[axis].upper, position[axis] + slack);
+      const double slack = error + 0x1p-51 * std::abs(value);
+      bounds[axis].lower = std::min(bounds[axis].lower, value - slack);
+      bounds[axis].upper = std::max(bounds[axis].upper, value + slack);
     }
   }
 }

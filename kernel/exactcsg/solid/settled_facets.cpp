@@ -11,14 +11,11 @@ namespace {
 // No two sides in succession lie on one line. Those of a triangle do not; those of a facet of a
 // convex polytope do only if one facet lies across both.
 bool turns_at_every_corner(const Scene& scene, const SceneFacet& facet) {
+  if (facet.is_half_space) return false;
   const auto corners = std::span(scene.corners).subspan(facet.first_corner, facet.corner_count);
-  if (std::any_of(corners.begin(), corners.end(),
-                  [](const Corner& corner) { return !corner.vertex.is_point; })) {
-    return false;  // of a half-space
-  }
   if (corners.size() == 3) return true;
   if (!scene.primitives[facet.primitive].convex) return false;
-  const auto same_side_plane = [](const Corner& a, const Corner& b) {
+  const auto same_side_plane = [](const PointCorner& a, const PointCorner& b) {
     return a.side_plane == b.side_plane;
   };
   return std::adjacent_find(corners.begin(), corners.end(), same_side_plane) == corners.end() &&

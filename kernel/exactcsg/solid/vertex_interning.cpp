@@ -43,9 +43,13 @@ InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices
   result.number_of_point.resize(vertices.has_point.size());
   // Items below `meeting_points` are these, the others are points.
   std::vector<KeyInterval> keys;
-  keys.reserve(meeting_points + vertices.has_point.size());
+  const auto occurring = [](const auto& items, auto absent) {
+    return items.size() - static_cast<std::size_t>(std::count(items.begin(), items.end(), absent));
+  };
+  keys.reserve(occurring(vertices.meeting_points, nullptr) + occurring(vertices.has_point, false));
   for (std::uint32_t i = 0; i < meeting_points; ++i) {
-    keys.push_back(key_of(*vertices.meeting_points[i], i));
+    if (vertices.meeting_points[i] != nullptr)
+      keys.push_back(key_of(*vertices.meeting_points[i], i));
   }
   for (std::uint32_t id = 0; id < vertices.has_point.size(); ++id) {
     if (!vertices.has_point[id]) continue;

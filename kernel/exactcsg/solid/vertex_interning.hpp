@@ -52,14 +52,14 @@ void for_each_cluster(std::vector<KeyInterval>& intervals, Visit visit) {
   }
 }
 
-// Corners of pieces: meeting points, each as often as it occurs, and input points by id.
+// Corners of pieces: meeting points, some of them more than once, and input points by id.
 struct CornerVertices {
-  std::vector<const Vertex*> meeting_points;
-  std::vector<bool> has_point;  // by id, of all points of the geometry
+  std::vector<const Vertex*> meeting_points;  // null: one that does not occur
+  std::vector<bool> has_point;                // by id, of all points of the geometry
 };
 
 struct InternedVertices {
-  std::vector<std::uint32_t> number_of_meeting_point;  // of each one given
+  std::vector<std::uint32_t> number_of_meeting_point;  // of each that occurs
   std::vector<std::uint32_t> number_of_point;          // by id, of those that occur
   std::vector<Vertex> distinct;  // by number; an input point where one is among the equals
 };

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/piece_buffer.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace exactcsg {
+
+namespace {
+
+std::size_t hash_of(const Vertex& meeting_point) {
+  std::uint64_t hash = 0x9e3779b97f4a7c15ULL;
+  for (const PlaneRef plane : meeting_point.planes) {
+    hash = (hash ^ plane.bits()) * 0xff51afd7ed558ccdULL;
+    hash ^= hash >> 32U;
+  }
+  return hash;
+}
+
+bool same_planes(const Vertex& v, const Vertex& w) {
+  return std::equal(std::begin(v.planes), std::end(v.planes), std::begin(w.planes));
+}
+
+}  // namespace
+
+void append(const PieceBuffer& added, PieceBuffer& result) {
+  const auto first_corner = static_cast<std::uint32_t>(result.corners.size());
+  const auto first_point = static_cast<std::uint32_t>(result.meeting_points.size());
+  for (BoundaryPiece piece : added.pieces) {
+    piece.first_corner += first_corner;
+    result.pieces.push_back(piece);
+  }
+  for (PieceCorner corner : added.corners) {
+    if (!corner.is_point) corner.vertex += first_point;
+    result.corners.push_back(corner);
+  }
+  result.meeting_points.insert(result.meeting_points.end(), added.meeting_points.begin(),
+                               added.meeting_points.end());
+}
+
+void PieceCollector::add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
+                         std::uint64_t share, const CornerView& polygon, bool isolated) {
+  BoundaryPiece piece{outward, corner_sense, 0, 0, facet, share, isolated};
+  if (share != facet_share::whole) {
+    piece.first_corner = static_cast<std::uint32_t>(buffer_.corners.size());
+    piece.corner_count = static_cast<std::uint32_t>(polygon.size());
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vertex vertex = polygon.vertex(i);
+      const std::uint32_t number =
+          vertex.is_point ? static_cast<std::uint32_t>(vertex.point) : place_of(vertex);
+      buffer_.corners.push_back({polygon.side_plane(i), number, vertex.is_point});
+    }
+  }
+  buffer_.pieces.push_back(piece);
+}
+
+PieceCollector::Mark PieceCollector::mark() const {
+  return {buffer_.pieces.size(), buffer_.corners.size(), buffer_.meeting_points.size()};
+}
+
+std::span<const BoundaryPiece> PieceCollector::pieces_since(const Mark& mark) const {
+  return std::span(buffer_.pieces).subspan(mark.pieces);
+}
+
+void PieceCollector::take_back_to(const Mark& mark) {
+  buffer_.pieces.resize(mark.pieces);
+  buffer_.corners.resize(mark.corners);
+  // The latest first: no other can have passed over a slot on the way to its own.
+  while (buffer_.meeting_points.size() > mark.meeting_points) {
+    slot_of(buffer_.meeting_points.back()) = {};
+    buffer_.meeting_points.pop_back();
+  }
+}
+
+PieceBuffer PieceCollector::take() {
+  PieceBuffer result = buffer_;  // copies have no memory to spare
+  buffer_.pieces.clear();
+  buffer_.corners.clear();
+  buffer_.meeting_points.clear();
+  if (++round_ == 0) {
+    slots_.clear();
+    round_ = 1;
+  }
+  return result;
+}
+
+std::uint32_t PieceCollector::place_of(const Vertex& meeting_point) {
+  if (buffer_.meeting_points.size() * 2 >= slots_.size()) enlarge_slots();
+  Slot& slot = slot_of(meeting_point);
+  if (slot.round != round_) {
+    slot = {static_cast<std::uint32_t>(buffer_.meeting_points.size()), round_};
+    buffer_.meeting_points.push_back(meeting_point);
+  }
+  return slot.place;
+}
+
+// That of the meeting point, or the free one where it belongs.
+PieceCollector::Slot& PieceCollector::slot_of(const Vertex& meeting_point) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t i = hash_of(meeting_point) & mask;
+  while (slots_[i].round == round_ &&
+         !same_planes(buffer_.meeting_points[slots_[i].place], meeting_point)) {
+    i = (i + 1) & mask;
+  }
+  return slots_[i];
+}
+
+void PieceCollector::enlarge_slots() {
+  slots_.assign(std::max<std::size_t>(slots_.size() * 2, 64), Slot{});
+  for (std::uint32_t place = 0; place < buffer_.meeting_points.size(); ++place) {
+    slot_of(buffer_.meeting_points[place]) = {place, round_};
+  }
+}
+
+}  // namespace exactcsg

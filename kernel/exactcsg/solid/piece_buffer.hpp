@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Pieces of boundary, as cells and facets emit them for merging. Internal to the evaluator. [Exact]
+//
+// LAW pieces.1  in one buffer, a meeting point of three planes is stored once, however many pieces
+//               have it for a corner.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "exactcsg/solid/scene.hpp"
+
+namespace exactcsg {
+
+// How much of a facet a polygon is, as a share of `whole`: every cut into two halves the share of
+// either part, whatever their areas. The parts of a facet that have a share therefore add up to
+// `whole` only if none is missing. After 62 cuts a part has no share any more.
+namespace facet_share {
+inline constexpr std::uint64_t whole = std::uint64_t{1} << 62U;
+}
+
+struct BoundaryPiece {
+  OrientedPlaneRef plane;        // outward normal of the solid
+  signed char corner_sense = 1;  // corners are counter-clockwise about the stored normal if +1
+  // In the buffer's store; none of a whole facet, whose corners are the scene's.
+  std::uint32_t first_corner = 0;
+  std::uint32_t corner_count = 0;
+  FacetIndex facet = 0;     // of the scene, that this is a part of
+  std::uint64_t share = 0;  // of that facet
+  // A whole facet of a convex primitive, inside a cell in which nothing else is boundary.
+  bool isolated = false;
+};
+
+struct PieceCorner {
+  PlaneRef side_plane;
+  std::uint32_t vertex = 0;  // an input point's id, or a place among the buffer's meeting points
+  bool is_point = false;
+};
+
+struct PieceBuffer {
+  std::vector<BoundaryPiece> pieces;
+  std::vector<PieceCorner> corners;
+  std::vector<Vertex> meeting_points;
+
+  // REQUIRES the piece is not a whole facet
+  std::span<const PieceCorner> corners_of(const BoundaryPiece& piece) const {
+    return std::span(corners).subspan(piece.first_corner, piece.corner_count);
+  }
+};
+
+// What both hold, without looking for meeting points that both have.
+void append(const PieceBuffer& added, PieceBuffer& result);
+
+// Builds one buffer after the other in the same memory.
+class PieceCollector {
+ public:
+  // The corners are stored unless the share is that of a whole facet. COST: O(1) a corner
+  void add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
+           std::uint64_t share, const CornerView& polygon, bool isolated = false);
+
+  struct Mark {
+    std::size_t pieces;
+    std::size_t corners;
+    std::size_t meeting_points;
+  };
+  Mark mark() const;
+  std::span<const BoundaryPiece> pieces_since(const Mark& mark) const;
+  // Takes back what was added since. REQUIRES no earlier mark was taken back to since
+  void take_back_to(const Mark& mark);
+
+  // What was added since the last call, in memory of the right size.
+  PieceBuffer take();
+
+ private:
+  struct Slot {
+    std::uint32_t place = 0;  // among the meeting points
+    std::uint32_t round = 0;  // in use if it is the present one
+  };
+
+  std::uint32_t place_of(const Vertex& meeting_point);
+  Slot& slot_of(const Vertex& meeting_point);
+  void enlarge_slots();
+
+  PieceBuffer buffer_;
+  std::vector<Slot> slots_;  // open addressing
+  std::uint32_t round_ = 1;
+};
+
+}  // namespace exactcsg
