@@ -6,11 +6,11 @@
 
 #include <fstream>
 #include <iterator>
-#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "io/malformed.hpp"
 #include "io/mcnp_support.hpp"
 
 namespace exactcsg::io::mcnp {
@@ -18,15 +18,7 @@ namespace {
 
 using namespace std::string_literals;
 
-struct Malformed {
-  const char* name;
-  std::string text;
-  ErrorId id;
-  std::size_t line;
-  std::size_t column;
-};
-
-void PrintTo(const Malformed& m, std::ostream* stream) { *stream << m.name; }
+using test::Malformed;
 
 // The card in question is line 2 of the cells ...
 std::string with_cell(const std::string& card, const std::string& data = "mode n\n") {
@@ -212,17 +204,7 @@ const Malformed table[] = {
 class MalformedDecks : public testing::TestWithParam<Malformed> {};
 
 TEST_P(MalformedDecks, AreRefusedWithTheirPlace) {
-  const Malformed& m = GetParam();
-  try {
-    read_geometry(m.text, "file.mcnp");
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(describe(error.id()).code, describe(m.id).code) << error.what();
-    ASSERT_TRUE(error.details().position) << error.what();
-    EXPECT_EQ(error.details().position->file, "file.mcnp");
-    EXPECT_EQ(error.details().position->line, m.line) << error.what();
-    EXPECT_EQ(error.details().position->column, m.column) << error.what();
-  }
+  test::expect_refusal(GetParam(), "file.mcnp", read_geometry);
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, MalformedDecks, testing::ValuesIn(table),

@@ -4,25 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include <ostream>
 #include <string>
 
 #include "exactcsg/io/openmc/model.hpp"
+#include "io/malformed.hpp"
 
 namespace exactcsg::io::openmc {
 namespace {
 
 using namespace std::string_literals;
 
-struct Malformed {
-  const char* name;
-  std::string text;
-  ErrorId id;
-  std::size_t line;
-  std::size_t column;
-};
-
-void PrintTo(const Malformed& m, std::ostream* stream) { *stream << m.name; }
+using test::Malformed;
 
 // One line for the surface or cell in question, after "<geometry>", so that it is line 2.
 std::string with_line(const std::string& line, const std::string& rest = "") {
@@ -236,17 +228,7 @@ const Malformed table[] = {
 class MalformedGeometry : public testing::TestWithParam<Malformed> {};
 
 TEST_P(MalformedGeometry, IsRefusedByName) {
-  const Malformed& m = GetParam();
-  try {
-    read_geometry(m.text, "geometry.xml");
-    FAIL() << "was read";
-  } catch (const Error& error) {
-    EXPECT_EQ(describe(error.id()).code, describe(m.id).code) << error.what();
-    ASSERT_TRUE(error.details().position) << error.what();
-    EXPECT_EQ(error.details().position->file, "geometry.xml");
-    EXPECT_EQ(error.details().position->line, m.line) << error.what();
-    EXPECT_EQ(error.details().position->column, m.column) << error.what();
-  }
+  test::expect_refusal(GetParam(), "geometry.xml", read_geometry);
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, MalformedGeometry, testing::ValuesIn(table),
