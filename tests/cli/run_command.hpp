@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "temporary_folder.hpp"
+
 namespace exactcsg::cli_test {
 
 struct Finished {
@@ -23,21 +25,7 @@ Finished run_command(const std::vector<std::string>& arguments, std::string_view
 // Any program, by its path.
 Finished run_program(std::vector<std::string> words, std::string_view input = {});
 
-// A folder of the test's own, removed at its end.
-class Folder {
- public:
-  Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder();
-
-  const std::filesystem::path& path() const { return path_; }
-  std::string write(const std::string& name, std::string_view text) const;
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
+using test::Folder;
 
 std::string read_text(const std::filesystem::path& file);
 // A model of data/openscad.

@@ -14,6 +14,7 @@
 #include "exactcsg/io/model.hpp"
 #include "exactcsg/solid/evaluate.hpp"
 #include "exactcsg/solid/measures.hpp"
+#include "temporary_folder.hpp"
 
 namespace exactcsg::io {
 namespace {
@@ -22,17 +23,7 @@ namespace fs = std::filesystem;
 
 class FillAndSnap : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(EXACTCSG_BINARY_DIR) / "test_files" / info->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  fs::path write(const std::string& name, std::string_view text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
-  }
-  fs::path folder_;
+  const exactcsg::test::Folder folder_;
 };
 
 ErrorId refusal(const fs::path& file) {
@@ -60,7 +51,7 @@ constexpr const char* two_cubes =
     "4 8 12 14 10\n4 9 11 15 13\n4 8 9 13 12\n4 10 14 15 11\n4 8 10 11 9\n4 12 13 15 14\n";
 
 TEST_F(FillAndSnap, MeshFileOfTwoCubes) {
-  const fs::path file = write("cubes.off", two_cubes);
+  const fs::path file = folder_.write("cubes.off", two_cubes);
   EXPECT_EQ(refusal(file), ErrorId::SelfIntersectingMesh);
   EXPECT_EQ(filled_volume(file, FillRule::NonZero), 15);
   EXPECT_EQ(filled_volume(file, FillRule::Positive), 15);
@@ -71,12 +62,12 @@ TEST_F(FillAndSnap, MeshFileOfTwoCubes) {
 }
 
 TEST_F(FillAndSnap, ImportedMeshIsMovedWithItsNode) {
-  write("cubes.off", two_cubes);
-  const fs::path file = write("part.csg",
-                              "difference() {\n"
-                              "multmatrix([[2,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {\n"
-                              "import(file = \"cubes.off\");\n}\n"
-                              "cube(size = [100, 100, 1]);\n}\n");
+  folder_.write("cubes.off", two_cubes);
+  const fs::path file = folder_.write("part.csg",
+                                      "difference() {\n"
+                                      "multmatrix([[2,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {\n"
+                                      "import(file = \"cubes.off\");\n}\n"
+                                      "cube(size = [100, 100, 1]);\n}\n");
   EXPECT_EQ(refusal(file), ErrorId::SelfIntersectingMesh);
   // 15, less the lower half of the first cube, twice as long.
   EXPECT_EQ(filled_volume(file, FillRule::NonZero), 2 * (15 - 4));
@@ -85,7 +76,7 @@ TEST_F(FillAndSnap, ImportedMeshIsMovedWithItsNode) {
 // The outline of the ends crosses itself in the middle of the unit square; OpenSCAD's faces are
 // clockwise seen from outside. One of the triangles, of area 1/4, is inside out.
 TEST_F(FillAndSnap, PolyhedronWithFacesThatCrossThemselves) {
-  const fs::path file = write(
+  const fs::path file = folder_.write(
       "bow_tie.csg",
       "polyhedron(points = [[0,0,0],[1,1,0],[1,0,0],[0,1,0],[0,0,1],[1,1,1],[1,0,1],[0,1,1]],\n"
       " faces = [[0,1,2,3],[7,6,5,4],[4,5,1,0],[5,6,2,1],[6,7,3,2],[7,4,0,3]]);\n");
@@ -98,8 +89,10 @@ TEST_F(FillAndSnap, PolyhedronWithFacesThatCrossThemselves) {
 // LAW mesh.1: a sound mesh is what it is; one that is inside out is turned round or empty.
 TEST_F(FillAndSnap, CubesThatDoNotMeetThemselves) {
   const std::string points = "polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], faces = ";
-  const fs::path sound = write("sound.csg", points + "[[0,1,2],[0,3,1],[0,2,3],[1,3,2]]);\n");
-  const fs::path inverted = write("inverted.csg", points + "[[2,1,0],[1,3,0],[3,2,0],[2,3,1]]);\n");
+  const fs::path sound =
+      folder_.write("sound.csg", points + "[[0,1,2],[0,3,1],[0,2,3],[1,3,2]]);\n");
+  const fs::path inverted =
+      folder_.write("inverted.csg", points + "[[2,1,0],[1,3,0],[3,2,0],[2,3,1]]);\n");
   EXPECT_EQ(refusal(inverted), ErrorId::InvertedMesh);
   EXPECT_EQ(filled_volume(sound, FillRule::Positive), Rational(1, 6));
   EXPECT_EQ(filled_volume(inverted, FillRule::NonZero), Rational(1, 6));
@@ -107,10 +100,10 @@ TEST_F(FillAndSnap, CubesThatDoNotMeetThemselves) {
 }
 
 TEST_F(FillAndSnap, ExtrusionTwistedUntilItsSidesCross) {
-  const fs::path file = write("twisted.csg",
-                              "linear_extrude(height = 1, twist = 180, slices = 1) {\n"
-                              "polygon(points = [[3,0],[4,0],[4,1],[3,1]], "
-                              "paths = [[0,1,2,3]]);\n}\n");
+  const fs::path file = folder_.write("twisted.csg",
+                                      "linear_extrude(height = 1, twist = 180, slices = 1) {\n"
+                                      "polygon(points = [[3,0],[4,0],[4,1],[3,1]], "
+                                      "paths = [[0,1,2,3]]);\n}\n");
   EXPECT_EQ(refusal(file), ErrorId::SelfIntersectingMesh);
   const Rational nonzero = filled_volume(file, FillRule::NonZero);
   EXPECT_GT(nonzero, 0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
@@ -15,6 +14,7 @@
 #include "exactcsg/io/mesh/mesh_file.hpp"
 #include "exactcsg/io/mesh/written_surface.hpp"
 #include "planar_support.hpp"
+#include "temporary_folder.hpp"
 
 namespace exactcsg::io::test {
 namespace {
@@ -23,24 +23,11 @@ namespace fs = std::filesystem;
 
 class MeshFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("exactcsg_mesh_" + std::to_string(getpid()) + "_" +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& bytes) const {
-    const fs::path file = folder_ / name;
-    std::ofstream(file, std::ios::binary) << bytes;
-    return file;
-  }
   PolygonSoup read(const std::string& name, const std::string& bytes) const {
-    return read_polygon_soup(write(name, bytes));
+    return read_polygon_soup(folder_.write(name, bytes));
   }
 
-  fs::path folder_;
+  const exactcsg::test::Folder folder_;
 };
 
 Rational one_tenth() { return {1, 10}; }
@@ -473,7 +460,7 @@ TEST_F(MeshFiles, WritingIsRefusedByName) {
     return ErrorId::Usage;
   };
   EXPECT_EQ(id_of(folder_ / "a.step"), ErrorId::UnknownFormat);
-  EXPECT_EQ(id_of(folder_ / "no" / "folder" / "a.off"), ErrorId::FileNotWritable);
+  EXPECT_EQ(id_of(folder_ / "no/folder/a.off"), ErrorId::FileNotWritable);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "exactcsg/io/model.hpp"
 #include "exactcsg/solid/evaluate.hpp"
 #include "exactcsg/solid/measures.hpp"
+#include "temporary_folder.hpp"
 
 namespace exactcsg::io {
 namespace {
@@ -20,16 +21,6 @@ namespace fs = std::filesystem;
 
 class OpenscadFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(EXACTCSG_BINARY_DIR) / "test_files" / info->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  fs::path write(const std::string& name, std::string_view text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
-  }
   static ErrorId refusal(const fs::path& file) {
     try {
       read_model(file);
@@ -40,25 +31,25 @@ class OpenscadFiles : public testing::Test {
     ADD_FAILURE() << "accepted: " << file;
     return ErrorId::InternalError;
   }
-  fs::path folder_;
+  const exactcsg::test::Folder folder_;
 };
 
 TEST_F(OpenscadFiles, AreReadByTheirEnding) {
-  const Model model = read_model(write("part.CSG", "cube(2);\n"));
+  const Model model = read_model(folder_.write("part.CSG", "cube(2);\n"));
   EXPECT_EQ(*exact_volume(evaluate(model.solid)), 8);
-  EXPECT_EQ(model.name, (folder_ / "part.CSG").string());
+  EXPECT_EQ(model.name, folder_ / "part.CSG");
 }
 
 TEST_F(OpenscadFiles, AreRefusedByName) {
-  EXPECT_EQ(refusal(folder_), ErrorId::FileNotReadable);
+  EXPECT_EQ(refusal(folder_.path()), ErrorId::FileNotReadable);
   EXPECT_EQ(refusal(folder_ / "missing.csg"), ErrorId::FileNotReadable);
   fs::create_directory(folder_ / "folder.csg");
   EXPECT_EQ(refusal(folder_ / "folder.csg"), ErrorId::FileNotReadable);
-  EXPECT_EQ(refusal(write("empty.csg", "")), ErrorId::EmptyFile);
-  EXPECT_EQ(refusal(write("empty.scad", "")), ErrorId::EmptyFile);
-  EXPECT_EQ(refusal(write("zip.csg", "PK\x03\x04 and so on")), ErrorId::NotText);
-  EXPECT_EQ(refusal(write("part.step", "ISO-10303-21;")), ErrorId::UnknownFormat);
-  EXPECT_EQ(refusal(write("part", "cube();")), ErrorId::UnknownFormat);
+  EXPECT_EQ(refusal(folder_.write("empty.csg", "")), ErrorId::EmptyFile);
+  EXPECT_EQ(refusal(folder_.write("empty.scad", "")), ErrorId::EmptyFile);
+  EXPECT_EQ(refusal(folder_.write("zip.csg", "PK\x03\x04 and so on")), ErrorId::NotText);
+  EXPECT_EQ(refusal(folder_.write("part.step", "ISO-10303-21;")), ErrorId::UnknownFormat);
+  EXPECT_EQ(refusal(folder_.write("part", "cube();")), ErrorId::UnknownFormat);
 }
 
 // While it lives, the process has no right that only root has.
@@ -97,7 +88,7 @@ bool has_openscad() { return std::system("openscad --version >/dev/null 2>&1") =
 
 TEST_F(OpenscadFiles, SourcesGoThroughOpenscad) {
   if (!has_openscad()) GTEST_SKIP() << "openscad is not installed";
-  const Model model = read_model(write(
+  const Model model = read_model(folder_.write(
       "part.scad", "echo(\"hello\"); translate([1, 2, 3]) cube([1, 2, h]); // h is not known\n"));
   EXPECT_EQ(*exact_volume(evaluate(model.solid)), 2);  // an unknown size is 1
   EXPECT_THAT(model.front_end_messages, testing::HasSubstr("hello"));
@@ -107,7 +98,7 @@ TEST_F(OpenscadFiles, SourcesGoThroughOpenscad) {
 
 TEST_F(OpenscadFiles, SourcesThatMakeNothingAreEmpty) {
   if (!has_openscad()) GTEST_SKIP() << "openscad is not installed";
-  const Model model = read_model(write("part.scad", "if (false) cube();\n"));
+  const Model model = read_model(folder_.write("part.scad", "if (false) cube();\n"));
   EXPECT_TRUE(model.solid.is_empty());
   EXPECT_FALSE(model.warnings.empty());
 }
@@ -115,16 +106,16 @@ TEST_F(OpenscadFiles, SourcesThatMakeNothingAreEmpty) {
 // OpenSCAD exits with 0 after a failed assertion.
 TEST_F(OpenscadFiles, ErrorsInSourcesAreShown) {
   if (!has_openscad()) GTEST_SKIP() << "openscad is not installed";
-  EXPECT_EQ(refusal(write("assert.scad", "cube(); assert(1 > 2); sphere();")),
+  EXPECT_EQ(refusal(folder_.write("assert.scad", "cube(); assert(1 > 2); sphere();")),
             ErrorId::OracleFailed);
-  EXPECT_EQ(refusal(write("syntax.scad", "cube(")), ErrorId::OracleFailed);
-  EXPECT_EQ(refusal(write("-o.scad", "cube(")), ErrorId::OracleFailed);
-  EXPECT_EQ(refusal(write("node.scad", "linear_extrude(1) text(\"a\");")),
+  EXPECT_EQ(refusal(folder_.write("syntax.scad", "cube(")), ErrorId::OracleFailed);
+  EXPECT_EQ(refusal(folder_.write("-o.scad", "cube(")), ErrorId::OracleFailed);
+  EXPECT_EQ(refusal(folder_.write("node.scad", "linear_extrude(1) text(\"a\");")),
             ErrorId::UnsupportedNode);
 }
 
 TEST_F(OpenscadFiles, WithoutOpenscadSourcesAreRefused) {
-  const fs::path file = write("part.scad", "cube();");
+  const fs::path file = folder_.write("part.scad", "cube();");
   const char* const before = std::getenv("PATH");
   const std::string path = before != nullptr ? before : "";
   setenv("PATH", "/nonexistent", 1);

@@ -13,6 +13,7 @@
 #include "exactcsg/io/model.hpp"
 #include "exactcsg/solid/evaluate.hpp"
 #include "exactcsg/solid/measures.hpp"
+#include "temporary_folder.hpp"
 
 namespace exactcsg::io {
 namespace {
@@ -220,23 +221,14 @@ TEST(OpenscadOffset, IsExactWhereLengthsAreRational) {
 
 class OpenscadNamedFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(EXACTCSG_BINARY_DIR) / "test_files" / ("named_" + std::string(info->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "parts");
-  }
-  fs::path write(const std::string& name, std::string_view text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
-  }
+  OpenscadNamedFiles() { fs::create_directory(folder_.path() / "parts"); }
   Rational volume_of(const std::string& text) const {
-    return *exact_volume(evaluate(read_model(write("model.csg", text)).solid));
+    return *exact_volume(evaluate(read_model(folder_.write("model.csg", text)).solid));
   }
   // The error that reading the text ends in; no position: it was accepted.
   Error::Details refusal(const std::string& text, ErrorId id) const {
     try {
-      read_model(write("model.csg", text));
+      read_model(folder_.write("model.csg", text));
     } catch (const Error& error) {
       EXPECT_EQ(error.id(), id) << error.what();
       return error.details();
@@ -244,21 +236,21 @@ class OpenscadNamedFiles : public testing::Test {
     ADD_FAILURE() << "accepted: " << text;
     return {};
   }
-  fs::path folder_;
+  const exactcsg::test::Folder folder_;
 };
 
 constexpr const char* corner_of_a_cube =
     "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
 
 TEST_F(OpenscadNamedFiles, AreImportedFromTheModelsFolder) {
-  write("parts/corner.off", corner_of_a_cube);
+  folder_.write("parts/corner.off", corner_of_a_cube);
   const std::string import =
       "import(file = \"parts/corner.off\", layer = \"\", origin = [0, 0], "
       "scale = 1, convexity = 1, $fn = 0, $fa = 12, $fs = 2, timestamp = 1);";
   EXPECT_EQ(volume_of(import), Rational(1, 6));
   EXPECT_EQ(volume_of("multmatrix([[2,0,0,0],[0,3,0,0],[0,0,4,0]]) { " + import + " }"), 4);
   EXPECT_EQ(volume_of("difference() { cube(1); " + import + " }"), Rational(5, 6));
-  const std::string absolute = (folder_ / "parts/corner.off").string();
+  const std::string absolute = folder_ / "parts/corner.off";
   EXPECT_EQ(volume_of("import(file = \"" + absolute + "\");"), Rational(1, 6));
 }
 
@@ -272,7 +264,7 @@ TEST_F(OpenscadNamedFiles, AreImportedFromStl) {
     while (numbers >> x >> y >> z) stl += "vertex " + x + " " + y + " " + z + "\n";
     stl += "endloop\nendfacet\n";
   }
-  write("a b\\.STL", stl + "endsolid corner\n");
+  folder_.write("a b\\.STL", stl + "endsolid corner\n");
   EXPECT_EQ(volume_of("import(file = \"a b\\\\.STL\");"), Rational(1, 6));
 }
 
@@ -286,33 +278,33 @@ TEST_F(OpenscadNamedFiles, AreRefusedByNameAndPlace) {
   fs::create_directory(folder_ / "folder.off");
   EXPECT_EQ(place(refusal("import(file = \"folder.off\");", ErrorId::FileNotReadable)), 16U);
   // What is wrong inside the file is said of a place in it.
-  write("short.off", "OFF\n4 4 0\n0 0 0\n");
+  folder_.write("short.off", "OFF\n4 4 0\n0 0 0\n");
   const Error::Details truncated =
       refusal("import(file = \"short.off\");", ErrorId::TruncatedInput);
   ASSERT_TRUE(truncated.position);
   EXPECT_THAT(truncated.position->file, testing::EndsWith("short.off"));
   // What is wrong with the solid, of the node.
-  write("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");
+  folder_.write("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");
   EXPECT_EQ(place(refusal("cube(1); import(file = \"open.off\");", ErrorId::OpenMesh)), 10U);
 }
 
 // Under a square of heights of sum S the volume is S / 4, because the middle is their mean.
 TEST_F(OpenscadNamedFiles, AreSurfaces) {
-  write("s.dat", "# heights\n1 2 3\n\n 4\t5 6\n");
+  folder_.write("s.dat", "# heights\n1 2 3\n\n 4\t5 6\n");
   EXPECT_EQ(volume_of("surface(file = \"s.dat\", center = false, invert = false);"), (12 + 16) / 4);
   // The floor is one below the least height, if that is below 0.
-  write("low.dat", "-1.5 2 3\n4 5 6\n");
+  folder_.write("low.dat", "-1.5 2 3\n4 5 6\n");
   EXPECT_EQ(volume_of("surface(file = \"low.dat\");"), Rational(19, 8) + 4 + Rational(5, 2) * 2);
-  const Boundary centred =
-      evaluate(read_model(write("c.csg", "surface(file = \"low.dat\", center = true);")).solid);
+  const Boundary centred = evaluate(
+      read_model(folder_.write("c.csg", "surface(file = \"low.dat\", center = true);")).solid);
   EXPECT_EQ(centred.vertices.front(), (Point3{-1, Rational(-1, 2), Rational(-5, 2)}));
   EXPECT_EQ(centred.vertices.back(), (Point3{1, Rational(1, 2), 6}));
-  write("row.dat", "1 2 3\n");
+  folder_.write("row.dat", "1 2 3\n");
   EXPECT_EQ(volume_of("cube(1); surface(file = \"row.dat\");"), 1);
-  write("ragged.dat", "1 2 3\n4 5\n");
+  folder_.write("ragged.dat", "1 2 3\n4 5\n");
   EXPECT_THAT(refusal("surface(file = \"ragged.dat\");", ErrorId::UnexpectedText).position->line,
               2U);
-  write("word.dat", "1 2\n4 x\n");
+  folder_.write("word.dat", "1 2\n4 x\n");
   refusal("surface(file = \"word.dat\");", ErrorId::UnexpectedText);
 }
 

@@ -12,6 +12,7 @@
 
 #include "exactcsg/support/error.hpp"
 #include "exactcsg/verify/verify_geometry.hpp"
+#include "temporary_folder.hpp"
 
 namespace exactcsg::verify {
 namespace {
@@ -32,20 +33,8 @@ io::openmc::Model model() {
 
 class GoldenGeometry : public testing::Test {
  protected:
-  GoldenGeometry()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("exactcsg_golden_" +
-                 std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~GoldenGeometry() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path write(const std::string& text) const {
-    const std::filesystem::path file = folder_ / "golden.json";
-    std::ofstream(file) << text;
-    return file;
-  }
-  std::filesystem::path write_entry(const std::string& cells, const std::string& materials) const {
+  std::string write(const std::string& text) const { return folder_.write("golden.json", text); }
+  std::string write_entry(const std::string& cells, const std::string& materials) const {
     return write(
         R"({"schema": "exactcsg.geometry_golden/1", "models": {"box_and_ball": {"cells": {)" +
         cells + R"(}, "materials": {)" + materials + "}}}}");
@@ -59,7 +48,7 @@ class GoldenGeometry : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  const test::Folder folder_;
 };
 
 std::string value(const std::string& name, const std::string& volume) {
