@@ -16,37 +16,17 @@
 #include "exactcsg/solid/evaluate.hpp"
 #include "exactcsg/solid/measures.hpp"
 #include "exactcsg/support/error.hpp"
+#include "solid/polyhedra.hpp"
 
 namespace exactcsg {
 namespace {
+
+using namespace test;
 
 constexpr std::array all_rules{FillRule::NonZero, FillRule::Positive, FillRule::EvenOdd};
 
 Polyhedron box(const Point3& lower, const Point3& upper) {
   return *make_box(lower, upper).polyhedron;
-}
-
-Polyhedron triangulated(const Polyhedron& p) {
-  Polyhedron result{p.vertices, {}};
-  for (const Facet& f : p.facets) {
-    for (std::size_t k = 2; k < f.size(); ++k) result.facets.push_back({f[0], f[k - 1], f[k]});
-  }
-  return result;
-}
-
-Polyhedron together(Polyhedron a, const Polyhedron& b) {
-  const auto shift = static_cast<std::uint32_t>(a.vertices.size());
-  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (Facet f : b.facets) {
-    for (auto& v : f) v += shift;
-    a.facets.push_back(f);
-  }
-  return a;
-}
-
-Polyhedron reversed(Polyhedron p) {
-  for (Facet& f : p.facets) std::reverse(f.begin(), f.end());
-  return p;
 }
 
 Rational filled_volume(const Polyhedron& polyhedron, FillRule rule) {

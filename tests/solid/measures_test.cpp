@@ -9,6 +9,7 @@
 #include "exactcsg/solid/figures.hpp"
 #include "exactcsg/support/error.hpp"
 #include "solid/boundary_builder.hpp"
+#include "solid/polyhedra.hpp"
 
 namespace exactcsg {
 namespace {
@@ -90,10 +91,8 @@ TEST(Measures, InscribedTetrahedron) {
   // In the unit cube: 1/3, edges of length sqrt 2, so the area is sqrt 3 2 = 3.46410161513775458...
   const Polyhedron t{{{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}},
                      {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
-  Polyhedron outward = t;
-  for (Facet& f : outward.facets) std::reverse(f.begin(), f.end());
   const bool turned = enclose_volume(boundary_of(t), 64).upper == 0;
-  const Boundary b = boundary_of(turned ? outward : t);
+  const Boundary b = boundary_of(turned ? reversed(t) : t);
   EXPECT_EQ(exact_volume(b), Rational(1, 3));
   EXPECT_EQ(exact_area(b), std::nullopt);  // irrational
   for (const int bits : {16, 64, 200}) {

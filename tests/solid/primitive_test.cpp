@@ -11,10 +11,13 @@
 #include <set>
 
 #include "exactcsg/support/error.hpp"
+#include "solid/polyhedra.hpp"
 #include "time_limits.hpp"
 
 namespace exactcsg {
 namespace {
+
+using namespace test;
 
 // Six times the volume by the divergence theorem, in rationals only.
 Rational six_volumes(const Polyhedron& p) {
@@ -47,34 +50,9 @@ Polyhedron box_polyhedron(int x0, int y0, int z0, int x1, int y1, int z1) {
   return *make_box({x0, y0, z0}, {x1, y1, z1}).polyhedron;
 }
 
-// Both polyhedra side by side, not merged.
-Polyhedron together(Polyhedron a, const Polyhedron& b) {
-  const auto shift = static_cast<std::uint32_t>(a.vertices.size());
-  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (Facet f : b.facets) {
-    for (auto& v : f) v += shift;
-    a.facets.push_back(f);
-  }
-  return a;
-}
-
-Polyhedron reversed(Polyhedron p) {
-  for (Facet& f : p.facets) std::reverse(f.begin(), f.end());
-  return p;
-}
-
 Polyhedron tetrahedron() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
           {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
-}
-
-// A square pyramid's base is split into triangles, as STL files do.
-Polyhedron triangulated(const Polyhedron& p) {
-  Polyhedron t{p.vertices, {}};
-  for (const Facet& f : p.facets) {
-    for (std::size_t k = 2; k < f.size(); ++k) t.facets.push_back({f[0], f[k - 1], f[k]});
-  }
-  return t;
 }
 
 // A closed grid surface: the torus-like or sphere-like tessellation with n x m quads in triangles.

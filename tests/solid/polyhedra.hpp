@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Polyhedra made of others, as lists of facets: nothing is checked or evaluated.
+
+#include <algorithm>
+#include <cstdint>
+
+#include "exactcsg/solid/primitive.hpp"
+
+namespace exactcsg::test {
+
+// A facet of n corners as n - 2 triangles, as STL files have it.
+inline Polyhedron triangulated(const Polyhedron& p) {
+  Polyhedron result{p.vertices, {}};
+  for (const Facet& f : p.facets) {
+    for (std::size_t k = 2; k < f.size(); ++k) result.facets.push_back({f[0], f[k - 1], f[k]});
+  }
+  return result;
+}
+
+// Both polyhedra side by side, not merged.
+inline Polyhedron together(Polyhedron a, const Polyhedron& b) {
+  const auto shift = static_cast<std::uint32_t>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (Facet f : b.facets) {
+    for (auto& v : f) v += shift;
+    a.facets.push_back(f);
+  }
+  return a;
+}
+
+// Inside out.
+inline Polyhedron reversed(Polyhedron p) {
+  for (Facet& f : p.facets) std::reverse(f.begin(), f.end());
+  return p;
+}
+
+}  // namespace exactcsg::test
