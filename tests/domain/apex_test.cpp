@@ -9,38 +9,24 @@
 #include <set>
 #include <string>
 
+#include "domain/random_rationals.hpp"
+#include "domain/surface_sets.hpp"
 #include "exactcsg/domain/bounded_primitives.hpp"
 #include "exactcsg/domain/classify.hpp"
 #include "exactcsg/domain/direction_cells.hpp"
-#include "random_rationals.hpp"
 
 namespace exactcsg::domain {
 namespace {
 
-using Set = csg::BooleanTree<SurfaceHalfSpace>;
-using test::Random;
+using namespace test;
 
 const Point<3> origin(0, 0, 0);
 
-Set set(SurfaceHalfSpace half_space) { return Set::primitive(std::move(half_space)); }
-// {normal x <= bound}
-Set below(const Coordinates<3>& normal, const Rational& bound = 0) {
-  return set(make_plane(normal, Rational(-bound)));
-}
 Set cone(const Coordinates<3>& direction, const Rational& squared_slope) {
   return set(make_cone({origin, direction}, squared_slope));
 }
 Set double_cone(const Coordinates<3>& direction, const Rational& squared_slope) {
   return set(make_double_cone({origin, direction}, squared_slope));
-}
-
-bool is_refused(const Set& tree, const Point<3>& point) {
-  try {
-    classify(tree, point);
-    return false;
-  } catch (const Error& error) {
-    return error.id() == ErrorId::UndecidedNeighbourhood;
-  }
 }
 
 TEST(Apices, OnAPlane) {

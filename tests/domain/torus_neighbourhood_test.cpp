@@ -6,30 +6,17 @@
 
 #include <random>
 
+#include "domain/surface_sets.hpp"
 #include "exactcsg/domain/classify.hpp"
 #include "exactcsg/domain/half_spaces.hpp"
 
 namespace exactcsg::domain {
 namespace {
 
-using Set = csg::BooleanTree<SurfaceHalfSpace>;
+using namespace test;
 
 const Axis z_axis{{0, 0, 0}, {0, 0, 1}};
-Set set(SurfaceHalfSpace half_space) { return Set::primitive(std::move(half_space)); }
 Set ring() { return set(make_torus(z_axis, 5, 2, 2)); }
-// {normal x <= bound}
-Set below(const Coordinates<3>& normal, const Rational& bound) {
-  return set(make_plane(normal, Rational(-bound)));
-}
-
-bool is_refused(const Set& tree, const Point<3>& point) {
-  try {
-    classify(tree, point);
-    return false;
-  } catch (const Error& error) {
-    return error.id() == ErrorId::UndecidedNeighbourhood;
-  }
-}
 
 TEST(TorusNeighbourhoods, ASurfaceOnItself) {
   const Point<3> on(3, 4, 2);
