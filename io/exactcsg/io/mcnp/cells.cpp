@@ -8,11 +8,11 @@
 #include <unordered_map>
 #include <utility>
 
+#include "exactcsg/io/region_expression.hpp"
+
 namespace exactcsg::io::mcnp {
 
 namespace {
-
-using csg::BooleanOperator;
 
 constexpr std::size_t most_elements = 10'000'000;
 
@@ -22,142 +22,74 @@ bool is_letter(char c) { return c >= 'a' && c <= 'z'; }
 // ---- geometry
 // ------------------------------------------------------------------------------------
 
-Geometry compose(BooleanOperator operation, std::vector<Geometry>& operands) {
-  Geometry result = operands.size() == 1 ? std::move(operands.front())
-                                         : Geometry::compose(operation, std::move(operands));
-  operands.clear();
-  return result;
-}
-
-class GeometryParser {
+class GeometryLanguage {
  public:
-  GeometryParser(const Card& card, std::size_t from, std::size_t to)
-      : card_(card), text_(card.text().substr(0, to)), at_(from), open_(1) {
-    open_.front().offset = from;
-  }
+  using Tree = Geometry;
+  static constexpr std::string_view blanks = " ";
+  static constexpr char complement = '#';
+  static constexpr char alternative = ':';
+  static constexpr std::string_view operand_names = "a surface, # or a parenthesis";
+  static constexpr std::string_view end_name = "the end of the geometry";
 
-  Geometry parse() {
-    while (at_ < text_.size()) take_token();
-    if (open_.size() > 1) {
-      fail("a parenthesis that is not closed", "')'", open_.back().offset);
-    }
-    return closed();
-  }
-
- private:
-  // What is within a pair of parentheses that is open, or within none.
-  struct Level {
-    std::size_t offset = 0;         // of the parenthesis
-    std::vector<Geometry> terms;    // of the union, finished
-    std::vector<Geometry> factors;  // of the intersection at work
-    bool complements_next = false;  // behind #
-    bool awaits_operand = false;    // behind # and :
-  };
+  explicit GeometryLanguage(const Card& card) : card_(card) {}
 
   [[noreturn]] void fail(std::string found, std::string expected, std::size_t at) const {
     card_.fail(ErrorId::UnexpectedText, std::move(found), std::move(expected), at);
   }
 
-  void take_token() {
-    Level& level = open_.back();
-    switch (text_[at_]) {
-      case ' ':
-        break;
-      case '(':
-        open_.push_back({at_, {}, {}, false, false});
-        break;
-      case ')': {
-        if (open_.size() == 1) fail("')' without '('", "as many of both", at_);
-        Geometry inner = closed();
-        open_.pop_back();
-        add(std::move(inner));
-        break;
-      }
-      case '#':
-        level.complements_next = !level.complements_next;
-        level.awaits_operand = true;
-        break;
-      case ':':
-        finish_term();
-        level.awaits_operand = true;
-        break;
-      default:
-        add(operand());
-        return;
-    }
-    ++at_;
-  }
+  static Geometry complement_of(Geometry geometry) { return csg::complement(std::move(geometry)); }
 
-  void add(Geometry operand) {
-    Level& level = open_.back();
-    if (std::exchange(level.complements_next, false)) operand = csg::complement(std::move(operand));
-    level.factors.push_back(std::move(operand));
-    level.awaits_operand = false;
-  }
-
-  void finish_term() {
-    Level& level = open_.back();
-    if (level.factors.empty() || level.awaits_operand) {
-      const std::string found = at_ < text_.size() ? fmt::format("'{}'", text_[at_])
-                                                   : std::string("the end of the geometry");
-      fail(found, "a surface, # or a parenthesis", std::min(at_, text_.size()));
-    }
-    level.terms.push_back(compose(BooleanOperator::Intersection, level.factors));
-  }
-
-  Geometry closed() {
-    finish_term();
-    return compose(BooleanOperator::Union, open_.back().terms);
-  }
-
-  // Digits, as a number; nullopt if there are none.
-  std::optional<openmc::Id> digits() {
-    constexpr std::size_t most_digits = 9;
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && is_digit(text_[at_])) ++at_;
-    if (at_ == begin) return std::nullopt;
-    if (at_ - begin > most_digits) {
-      card_.fail(ErrorId::NumberOutOfRange,
-                 fmt::format("'{:.40}'", text_.substr(begin, at_ - begin)), "at most nine digits",
-                 begin);
-    }
-    return std::stoi(std::string(text_.substr(begin, at_ - begin)));
-  }
-
-  Geometry operand() {
+  Geometry operand(std::string_view text, std::size_t& at, bool is_complemented) const {
     Operand result;
-    result.at = at_;
-    result.is_cell = open_.back().complements_next;
-    const bool has_sign = text_[at_] == '-' || text_[at_] == '+';
-    result.is_positive = text_[at_] != '-';
-    if (has_sign) ++at_;
-    const std::optional<openmc::Id> number = digits();
-    const bool ends_well = at_ == text_.size() ||
-                           std::string_view(" ()#:").find(text_[at_]) != std::string_view::npos ||
-                           (text_[at_] == '.' && !result.is_cell);
+    result.at = at;
+    result.is_cell = is_complemented;
+    const bool has_sign = text[at] == '-' || text[at] == '+';
+    result.is_positive = text[at] != '-';
+    if (has_sign) ++at;
+    const std::optional<openmc::Id> number = digits(text, at);
+    const bool ends_well = at == text.size() ||
+                           std::string_view(" ()#:").find(text[at]) != std::string_view::npos ||
+                           (text[at] == '.' && !result.is_cell);
     if (!number || !ends_well || (result.is_cell && has_sign)) {
-      fail(fmt::format("'{}'", text_.substr(result.at, at_ - result.at + 1)),
+      fail(fmt::format("'{}'", text.substr(result.at, at - result.at + 1)),
            result.is_cell ? "the number of a cell behind #, or a parenthesis"
                           : "the number of a surface, ':', '#' or a parenthesis",
            result.at);
     }
     result.number = *number;
-    if (at_ < text_.size() && text_[at_] == '.') {
-      const std::size_t point = at_++;
-      const auto facet = digits();
+    if (at < text.size() && text[at] == '.') {
+      const std::size_t point = at++;
+      const auto facet = digits(text, at);
       if (!facet || *facet == 0 || *facet > 8) {
-        fail(fmt::format("'{}'", text_.substr(point, at_ - point)), "the number of a facet", point);
+        fail(fmt::format("'{}'", text.substr(point, at - point)), "the number of a facet", point);
       }
       result.facet = static_cast<unsigned>(*facet);
     }
     return Geometry::primitive(result);
   }
 
+ private:
+  // As a number; nullopt if there are none.
+  std::optional<openmc::Id> digits(std::string_view text, std::size_t& at) const {
+    constexpr std::size_t most_digits = 9;
+    const std::size_t begin = at;
+    while (at < text.size() && is_digit(text[at])) ++at;
+    if (at == begin) return std::nullopt;
+    if (at - begin > most_digits) {
+      card_.fail(ErrorId::NumberOutOfRange, fmt::format("'{:.40}'", text.substr(begin, at - begin)),
+                 "at most nine digits", begin);
+    }
+    return std::stoi(std::string(text.substr(begin, at - begin)));
+  }
+
   const Card& card_;
-  std::string_view text_;
-  std::size_t at_;
-  std::vector<Level> open_;
 };
+
+// From offset `from` of the card to `to`.
+Geometry geometry_of(const Card& card, std::size_t from, std::size_t to) {
+  const GeometryLanguage language(card);
+  return RegionExpression(language, card.text().substr(0, to), from).parse();
+}
 
 // ---- parameters
 // ----------------------------------------------------------------------------------
@@ -541,7 +473,7 @@ class CellReader {
     }
     if (contents == 2) static_cast<void>(number_of(card, words[1]));
     const Word& last = words[contents - 1];
-    cell.geometry = GeometryParser(card, last.at + last.text.size(), end).parse();
+    cell.geometry = geometry_of(card, last.at + last.text.size(), end);
     at = end;
   }
 
