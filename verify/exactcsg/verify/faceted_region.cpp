@@ -13,6 +13,7 @@
 
 #include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/csg/walk.hpp"
+#include "exactcsg/domain/vector.hpp"
 #include "exactcsg/number/enclosure.hpp"
 #include "exactcsg/support/error.hpp"
 
@@ -21,6 +22,8 @@ namespace exactcsg::verify {
 namespace {
 
 using csg::BooleanOperator;
+using domain::detail::scalar_product;
+using domain::detail::vector_product;
 using io::openmc::HalfSpaceRegion;
 using io::openmc::Region;
 using io::openmc::Surface;
@@ -42,10 +45,6 @@ struct Polynomial {
     constant += factor * centre * centre;
   }
 };
-
-Rational product(const Row& a, const Row& b) {
-  return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-}
 
 std::size_t axis_of(const Surface& surface) {
   return static_cast<std::size_t>(surface.type.front() - 'x');
@@ -139,9 +138,9 @@ SumOfSquares sum_of_squares(Polynomial f) {
   SumOfSquares result;
   while (const std::optional<Row> v = direction_of_change(f.square)) {
     Square next;
-    for (std::size_t i = 0; i < 3; ++i) next.normal[i] = product(f.square[i], *v);
-    next.factor = product(next.normal, *v);
-    next.offset = product(f.linear, *v) / (2 * next.factor);
+    for (std::size_t i = 0; i < 3; ++i) next.normal[i] = scalar_product(f.square[i], *v);
+    next.factor = scalar_product(next.normal, *v);
+    next.offset = scalar_product(f.linear, *v) / (2 * next.factor);
     for (Rational& x : next.normal) x /= next.factor;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
@@ -170,16 +169,6 @@ struct NormalForm {
   std::array<Rational, 3> squared_axes;
 };
 
-Row cross_product(const Row& a, const Row& b) {
-  Row result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    result[i] = a[j] * b[k] - a[k] * b[j];
-  }
-  return result;
-}
-
 AffineMap to_local(const std::vector<Square>& squares) {
   AffineMap map;
   for (std::size_t i = 0; i < squares.size(); ++i) {
@@ -187,7 +176,7 @@ AffineMap to_local(const std::vector<Square>& squares) {
     map.m[i][3] = squares[i].offset;
   }
   if (squares.size() == 2) {
-    const Row along = cross_product(squares[0].normal, squares[1].normal);
+    const Row along = vector_product(squares[0].normal, squares[1].normal);
     for (std::size_t j = 0; j < 3; ++j) map.m[2][j] = along[j];
   }
   return map;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "exactcsg/domain/half_spaces.hpp"
+#include "exactcsg/domain/vector.hpp"
 #include "exactcsg/io/openmc/surfaces.hpp"
 
 namespace exactcsg::io::mcnp {
@@ -19,36 +20,27 @@ namespace exactcsg::io::mcnp {
 namespace {
 
 using csg::BooleanOperator;
+using domain::detail::is_zero;
+using domain::detail::scalar_product;
+using domain::detail::scaled;
+using domain::detail::vector_product;
 using Vector = domain::Coordinates<3>;
 using Quadric = domain::Quadric<3>;
 using Sides = csg::BooleanTree<ShapeSide>;
 
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
-Rational dot(const Vector& a, const Vector& b) {
-  return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-}
-Vector cross(const Vector& a, const Vector& b) {
-  Vector result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    result[i] = a[j] * b[k] - a[k] * b[j];
-  }
-  return result;
-}
+// a + factor b
 Vector sum(const Vector& a, const Rational& factor, const Vector& b) {
   Vector result;
   for (std::size_t i = 0; i < 3; ++i) result[i] = a[i] + factor * b[i];
   return result;
 }
-Vector scaled(const Rational& factor, const Vector& a) { return sum(Vector(), factor, a); }
 Vector unit(std::size_t axis) {
   Vector result;
   result[axis] = 1;
   return result;
 }
-bool is_zero(const Vector& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
 // The one component that is not 0.
 std::optional<std::size_t> axis_along(const Vector& a) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -114,7 +106,7 @@ ShapeSide add_cone(Body& body, const domain::Axis& axis, const Rational& squared
 
 // factor ((x - centre) direction)^2
 Quadric square_along(const Rational& factor, const Vector& direction, const Vector& centre) {
-  const domain::LinearForm<3> form{direction, Rational(-dot(direction, centre))};
+  const domain::LinearForm<3> form{direction, Rational(-scalar_product(direction, centre))};
   return factor * domain::product(form, form);
 }
 Quadric constant(const Rational& value) { return Quadric(domain::LinearForm<3>{{}, value}); }
@@ -184,9 +176,9 @@ std::optional<ShapeSide> add_image(Body& body, const AffineMap& map, const Shape
 
 bool are_across(const Vector& a, const Vector& b) {
   constexpr double tolerance = 1e-6;  // of the squared cosine
-  const Rational product = dot(a, b);
+  const Rational product = scalar_product(a, b);
   return nearest_double(Rational(product * product)) <=
-         tolerance * nearest_double(Rational(dot(a, a) * dot(b, b)));
+         tolerance * nearest_double(Rational(scalar_product(a, a) * scalar_product(b, b)));
 }
 
 Rational root_of(const Rational& value) {
@@ -337,9 +329,10 @@ class SurfaceReader {
 
   void read_plane_of_points() {
     const Vector a = vector_at(values_, 0);
-    Vector normal = cross(sum(vector_at(values_, 3), -1, a), sum(vector_at(values_, 6), -1, a));
+    Vector normal =
+        vector_product(sum(vector_at(values_, 3), -1, a), sum(vector_at(values_, 6), -1, a));
     if (is_zero(normal)) fail(ErrorId::DegenerateSurface, "three points on a line", "");
-    Rational offset = dot(normal, a);
+    Rational offset = scalar_product(normal, a);
     // The first of these that is not 0 decides.
     const std::array<Rational, 4> deciding{offset, normal[2], normal[1], normal[0]};
     const auto first =
@@ -467,7 +460,7 @@ class SurfaceReader {
     const Vector centre = vector_at(values_, 0);
     const Vector axis = vector_at(values_, 3);
     const Rational across = 1 / Rational(values_[6] * values_[6]);
-    const Rational along = 1 / dot(axis, axis);
+    const Rational along = 1 / scalar_product(axis, axis);
     Quadric f = constant(-1) + square_along(Rational(along * (along - across)), axis, centre);
     for (std::size_t i = 0; i < 3; ++i) f = f + square_along(across, unit(i), centre);
     is(add_quadric(body_, f));
@@ -547,7 +540,7 @@ class SurfaceReader {
   void add_facet(const ShapeSide& side) { body_.facets.emplace_back(side); }
   // {x : normal (x - point) <= 0}
   void add_facet(const Vector& normal, const Vector& point) {
-    add_facet(add_plane(body_, normal, dot(normal, point)));
+    add_facet(add_plane(body_, normal, scalar_product(normal, point)));
   }
   void add_opposite_facets(const Vector& direction, const Vector& end, const Vector& begin) {
     add_facet(direction, end);
@@ -642,13 +635,13 @@ class SurfaceReader {
       }
     } else {
       // r turned about h by 60 and by 120 degrees; sides as far away as r is long.
-      const Rational sine = rational_of(std::numbers::sqrt3 / 2) / root_of(dot(h, h));
-      const Vector across = cross(h, r);
-      const Rational offset = dot(r, r);
+      const Rational sine = rational_of(std::numbers::sqrt3 / 2) / root_of(scalar_product(h, h));
+      const Vector across = vector_product(h, r);
+      const Rational offset = scalar_product(r, r);
       const auto add_pair = [&](const Vector& normal) {
-        add_facet(add_plane(body_, normal, Rational(dot(normal, v) + offset)));
+        add_facet(add_plane(body_, normal, Rational(scalar_product(normal, v) + offset)));
         const Vector back = scaled(-1, normal);
-        add_facet(add_plane(body_, back, Rational(dot(back, v) + offset)));
+        add_facet(add_plane(body_, back, Rational(scalar_product(back, v) + offset)));
       };
       add_pair(r);
       add_pair(sum(scaled(Rational(1, 2), r), sine, across));
@@ -667,17 +660,17 @@ class SurfaceReader {
     expect_direction(6);
     expect_across(3, 6);
     const auto inverse_square = [](const Rational& x) { return Rational(1 / (x * x)); };
-    Quadric f = constant(-1) + square_along(inverse_square(dot(a, a)), a, v);
+    Quadric f = constant(-1) + square_along(inverse_square(scalar_product(a, a)), a, v);
     if (values_.size() == 12) {
       const Vector b = vector_at(values_, 9);
       expect_direction(9);
       expect_across(3, 9);
       expect_across(6, 9);
-      f = f + square_along(inverse_square(dot(b, b)), b, v);
+      f = f + square_along(inverse_square(scalar_product(b, b)), b, v);
     } else {
       expect_radius(9);
-      const Vector b = cross(h, a);
-      f = f + square_along(Rational(inverse_square(values_[9]) / dot(b, b)), b, v);
+      const Vector b = vector_product(h, a);
+      f = f + square_along(Rational(inverse_square(values_[9]) / scalar_product(b, b)), b, v);
     }
     add_facet(add_quadric(body_, f));
     add_ends(v, h);
@@ -697,7 +690,7 @@ class SurfaceReader {
       fail(ErrorId::BadArgument, "a cone of equal radii", "radii that differ, or an rcc", 7);
     }
     const Vector apex = sum(v, Rational(values_[6] / change), h);
-    add_facet(add_cone(body_, {apex, h}, Rational(change * change / dot(h, h))));
+    add_facet(add_cone(body_, {apex, h}, Rational(change * change / scalar_product(h, h))));
     add_ends(v, h);
     intersect_facets();
     // Alone it may be one sheet or two: the manual does not say.
@@ -714,8 +707,8 @@ class SurfaceReader {
       expect_direction(from);
       for (std::size_t other = 3; other < from; other += 3) expect_across(other, from);
     }
-    Vector slant = cross(h, sum(a, -1, b));
-    if (dot(slant, a) < 0) slant = scaled(-1, slant);
+    Vector slant = vector_product(h, sum(a, -1, b));
+    if (scalar_product(slant, a) < 0) slant = scaled(-1, slant);
     add_facet(slant, sum(v, 1, a));
     add_facet(scaled(-1, a), v);
     add_facet(scaled(-1, b), v);
@@ -773,11 +766,11 @@ class SurfaceReader {
     const auto corner = [&](std::size_t i) { return vector_at(values_, 3 * i); };
     const std::vector<std::size_t>& corners = sides[index];
     const Vector a = corner(corners[0]);
-    Vector normal = cross(sum(corner(corners[1]), -1, a), sum(corner(corners[2]), -1, a));
+    Vector normal = vector_product(sum(corner(corners[1]), -1, a), sum(corner(corners[2]), -1, a));
     if (is_zero(normal)) {
       fail(ErrorId::DegenerateFacet, "a side whose corners are on a line", "", entry);
     }
-    Rational height = dot(normal, sum(middle, -1, a));
+    Rational height = scalar_product(normal, sum(middle, -1, a));
     if (height > 0) {
       normal = scaled(-1, normal);
       height = -height;
@@ -786,7 +779,7 @@ class SurfaceReader {
     // In units of the distance of the middle.
     constexpr double tolerance = 1e-5;
     const auto offset = [&](std::size_t i) {
-      return nearest_double(Rational(dot(normal, sum(corner(i), -1, a)) / -height));
+      return nearest_double(Rational(scalar_product(normal, sum(corner(i), -1, a)) / -height));
     };
     for (const std::size_t i : corners) {
       if (std::abs(offset(i)) > tolerance) {

@@ -7,12 +7,15 @@
 #include <array>
 #include <cmath>
 
+#include "exactcsg/domain/vector.hpp"
 #include "exactcsg/io/openscad/degree_trigonometry.hpp"
 
 namespace exactcsg::io::mcnp {
 
 namespace {
 
+using domain::detail::scalar_product;
+using domain::detail::vector_product;
 using Matrix = std::array<std::array<Rational, 3>, 3>;
 using Row = std::array<double, 3>;
 
@@ -22,8 +25,7 @@ constexpr double least_orthogonal = 1e-2;
 bool is_orthogonal(const Matrix& m) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = i; j < 3; ++j) {
-      const Rational product = m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2];
-      if (product != (i == j ? 1 : 0)) return false;
+      if (scalar_product(m[i], m[j]) != (i == j ? 1 : 0)) return false;
     }
   }
   return true;
@@ -171,13 +173,7 @@ class TransformationReader {
     for (std::size_t i = 0; i < given.size(); ++i) {
       rows[i / 3][i % 3] = is_in_degrees_ ? cosine_of(card_, *given[i]) : *given[i]->value;
     }
-    if (given.size() == 6) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3;
-        const std::size_t k = (i + 2) % 3;
-        rows[2][i] = rows[0][j] * rows[1][k] - rows[0][k] * rows[1][j];
-      }
-    }
+    if (given.size() == 6) rows[2] = vector_product(rows[0], rows[1]);
     if (is_orthogonal(rows)) return rows;
     is_rounded = true;
     const std::optional<Matrix> near = orthogonal_near(rows);

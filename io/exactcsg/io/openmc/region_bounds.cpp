@@ -9,6 +9,7 @@
 
 #include "exactcsg/csg/traverse.hpp"
 #include "exactcsg/csg/walk.hpp"
+#include "exactcsg/domain/vector.hpp"
 #include "exactcsg/measure/local_region.hpp"
 
 namespace exactcsg::io::openmc {
@@ -58,13 +59,7 @@ Bounds bounds_of(const Model& model, const SurfaceSide& side) {
 
 Rational determinant_of(const domain::Coordinates<3>& a, const domain::Coordinates<3>& b,
                         const domain::Coordinates<3>& c) {
-  Rational result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    result += a[i] * (b[j] * c[k] - b[k] * c[j]);
-  }
-  return result;
+  return domain::detail::scalar_product(a, domain::detail::vector_product(b, c));
 }
 
 // The least upper bound of direction x that the planes imply. By Farkas and Caratheodory: the
