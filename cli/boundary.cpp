@@ -21,13 +21,6 @@ struct Arguments {
   bool is_snapped = false;
 };
 
-void check_format(const std::string& file) {
-  const std::string ending = std::filesystem::path(file).extension().string();
-  if (ending == ".off" || ending == ".stl" || ending == ".obj" || ending == ".ply") return;
-  throw Error(ErrorId::UnknownFormat,
-              {fmt::format("'{}'", ending), ".off, .stl, .obj or .ply", SourcePosition{file}});
-}
-
 // Rounding may turn a facet over, or let two meet.
 void check_what_was_written(Context& context, const Boundary& boundary, const std::string& file) {
   if (boundary.empty()) return;
@@ -72,7 +65,7 @@ void write_snapped(Context& context, const Boundary& boundary, const std::string
 }
 
 Answer write(Context& context, const Arguments& arguments) {
-  check_format(arguments.output);
+  expect_ending(arguments.output, {".off", ".stl", ".obj", ".ply"});
   const io::Model model = read(context, arguments.model);
   const Boundary boundary = evaluate(model.solid, context.evaluate_options());
   if (arguments.is_snapped && !boundary.empty()) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "cli/openmc.hpp"
 #include "cli/output_file.hpp"
+#include "cli/report.hpp"
 #include "exactcsg/verify/geometry_check.hpp"
 
 namespace exactcsg::cli {
@@ -41,20 +42,12 @@ std::optional<domain::Box<3>> box_of(const std::vector<std::string>& words) {
   return domain::Box<3>(corners[0], corners[1]);
 }
 
-void check_ending(const std::filesystem::path& report) {
-  constexpr std::array<std::string_view, 4> endings{".json", ".xml", ".html", ".txt"};
-  const std::string ending = report.extension().string();
-  if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
-  throw Error(ErrorId::UnknownFormat, {fmt::format("'{}'", ending), ".json, .xml, .html or .txt",
-                                       SourcePosition{report.string()}});
-}
-
 Answer check_one(Context& context, const Arguments& arguments) {
   // Slips in arguments must not wait for the end of long work.
   verify::GeometryCheckOptions options;
   options.box = box_of(arguments.box);
   const Rational tolerance = number_of(arguments.tolerance, "--tolerance");
-  for (const std::string& file : arguments.reports) check_ending(file);
+  for (const std::string& file : arguments.reports) expect_report_ending(file);
   options.budget_seconds = arguments.budget;
   options.progress = &context.progress();
   const io::openmc::Model model = read_geometry(context, arguments.model);

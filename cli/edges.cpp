@@ -31,16 +31,13 @@ std::string edges_json(const Boundary& boundary, const std::string& name) {
 }
 
 Answer write(Context& context, const Arguments& arguments) {
-  const std::string ending = std::filesystem::path(arguments.output).extension().string();
-  if (ending != ".svg" && ending != ".json") {
-    throw Error(ErrorId::UnknownFormat,
-                {"'" + ending + "'", ".svg or .json", SourcePosition{arguments.output}});
-  }
+  expect_ending(arguments.output, {".svg", ".json"});
+  const bool is_drawing = std::filesystem::path(arguments.output).extension() == ".svg";
   const io::Model model = read(context, arguments.model);
   const Boundary boundary = evaluate(model.solid, context.evaluate_options());
   context.progress().begin("write", 0);
-  write_file(arguments.output, ending == ".svg" ? wire_frame_svg(boundary, model.name)
-                                                : edges_json(boundary, model.name));
+  write_file(arguments.output,
+             is_drawing ? wire_frame_svg(boundary, model.name) : edges_json(boundary, model.name));
   context.print(arguments.output + ": " + std::to_string(boundary.edges.size()) + " edges, " +
                 std::to_string(boundary.vertices.size()) + " vertices\n");
   return Answer::Yes;

@@ -2,7 +2,6 @@
 #include "exactcsg/verify/golden.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
@@ -10,9 +9,8 @@
 
 #include "cli/command.hpp"
 #include "cli/output_file.hpp"
-#include "cli/terminal.hpp"
+#include "cli/report.hpp"
 #include "exactcsg/support/version.hpp"
-#include "exactcsg/verify/report.hpp"
 #include "exactcsg/verify/verify.hpp"
 
 namespace exactcsg::cli {
@@ -123,11 +121,7 @@ Answer check(Context& context, const Arguments& arguments) {
     missing.explanation = fmt::format("{} has no {}.csg beside it", arguments.golden, name);
     report.checks.push_back(std::move(missing));
   }
-  verify::TextStyle style;
-  style.colour = colour_wanted(STDOUT_FILENO);
-  style.width = terminal_width(STDOUT_FILENO);
-  context.print(verify::render_text(report, style));
-  return report.overall() == verify::Verdict::Passed ? Answer::Yes : Answer::No;
+  return print_report(context, report);
 }
 
 }  // namespace

@@ -44,22 +44,20 @@ CLI::Validator as_size() {
   return {parse, "SIZE [b, kb(=1024b), ...]"};
 }
 
-// As above, by hand: CLI11's transformers make their tables at every start.
-CLI::Validator as_fill_rule() {
-  const auto check = [](std::string& text) -> std::string {
-    for (const FillRule rule : {FillRule::NonZero, FillRule::Positive, FillRule::EvenOdd}) {
-      if (text == name_of(rule)) return {};
-    }
-    return fmt::format("'{}' is no rule: nonzero, positive, even-odd", text);
-  };
-  return {check, "nonzero|positive|even-odd"};
-}
-
 std::optional<FillRule> fill_rule_of(std::string_view name) {
   for (const FillRule rule : {FillRule::NonZero, FillRule::Positive, FillRule::EvenOdd}) {
     if (name == name_of(rule)) return rule;
   }
   return std::nullopt;
+}
+
+// As above, by hand: CLI11's transformers make their tables at every start.
+CLI::Validator as_fill_rule() {
+  const auto check = [](std::string& text) -> std::string {
+    if (fill_rule_of(text)) return {};
+    return fmt::format("'{}' is no rule: nonzero, positive, even-odd", text);
+  };
+  return {check, "nonzero|positive|even-odd"};
 }
 
 void add_fill_option(CLI::App& arguments, std::string& fill) {

@@ -45,7 +45,11 @@ double width_of(const Enclosure& value) {
   return nearest_double(value.lower > 0 ? Rational(width / value.lower) : width);
 }
 
-Json id_of(const std::optional<Id>& material) { return material ? Json(*material) : Json("void"); }
+Json ids_of(const Materials& materials) {
+  Json ids = Json::array();
+  for (const auto& id : materials) ids.push_back(id ? Json(*id) : Json("void"));
+  return ids;
+}
 
 Json as_json(const VisibleVolume& visible) {
   Json result;
@@ -77,8 +81,7 @@ Json as_json(const Model& model, const GeometryVolumes& volumes, const WidthOpti
     entry["id"] = cell.id;
     if (!cell.name.empty()) entry["name"] = cell.name;
     if (cell.fill == FillKind::Material) {
-      entry["materials"] = Json::array();
-      for (const auto& material : cell.materials) entry["materials"].push_back(id_of(material));
+      entry["materials"] = ids_of(cell.materials);
     } else {
       entry["fill"] = cell.fill == FillKind::Universe ? "universe" : "lattice";
     }
@@ -88,8 +91,7 @@ Json as_json(const Model& model, const GeometryVolumes& volumes, const WidthOpti
   document["materials"] = Json::array();
   for (const MaterialVolume& material : volumes.materials) {
     Json entry;
-    entry["materials"] = Json::array();
-    for (const auto& id : material.materials) entry["materials"].push_back(id_of(id));
+    entry["materials"] = ids_of(material.materials);
     entry.update(as_json(material.visible));
     document["materials"].push_back(std::move(entry));
   }

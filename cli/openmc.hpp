@@ -15,8 +15,6 @@ namespace exactcsg::cli {
 // Reads a geometry and passes its warnings on.
 io::openmc::Model read_geometry(Context& context, const std::filesystem::path& file);
 
-// "1", or "1, 2, void".
-
 // A line for each point: In, On, Gap or Overlap, the cells, and the path through universes.
 Answer locate_points(Context& context, const std::string& model, const std::vector<Point3>& points);
 Answer print_geometry_info(Context& context, const std::string& model);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -72,6 +73,16 @@ void write_file(const fs::path& target, const std::function<void(const fs::path&
 
 void write_file(const fs::path& target, std::string_view text) {
   write_file(target, [&](const fs::path& file) { write_text(file, target, text); });
+}
+
+void expect_ending(const fs::path& target, const std::vector<std::string_view>& endings) {
+  const std::string ending = target.extension().string();
+  if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
+  throw Error(
+      ErrorId::UnknownFormat,
+      {fmt::format("'{}'", ending),
+       fmt::format("{} or {}", fmt::join(endings.begin(), endings.end() - 1, ", "), endings.back()),
+       SourcePosition{target.string()}});
 }
 
 }  // namespace exactcsg::cli

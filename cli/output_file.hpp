@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 namespace exactcsg::cli {
 
@@ -17,5 +18,10 @@ void write_file(const std::filesystem::path& target,
                 const std::function<void(const std::filesystem::path&)>& write);
 
 void write_file(const std::filesystem::path& target, std::string_view text);
+
+// A slip in a name must not wait for the end of long work.
+// THROWS Error(UnknownFormat) if the name ends in none of these. REQUIRES two or more
+void expect_ending(const std::filesystem::path& target,
+                   const std::vector<std::string_view>& endings);
 
 }  // namespace exactcsg::cli

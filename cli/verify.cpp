@@ -2,7 +2,6 @@
 #include "exactcsg/verify/verify.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
@@ -10,9 +9,8 @@
 #include "cli/command.hpp"
 #include "cli/openmc.hpp"
 #include "cli/output_file.hpp"
-#include "cli/terminal.hpp"
+#include "cli/report.hpp"
 #include "exactcsg/support/version.hpp"
-#include "exactcsg/verify/report.hpp"
 #include "exactcsg/verify/verify_geometry.hpp"
 
 namespace exactcsg::cli {
@@ -42,13 +40,7 @@ void check(const Arguments& arguments) {
       }
     }
   }
-  for (const std::string& file : arguments.reports) {
-    const std::string ending = std::filesystem::path(file).extension().string();
-    if (ending != ".json" && ending != ".xml" && ending != ".html" && ending != ".txt") {
-      throw Error(ErrorId::UnknownFormat, {fmt::format("'{}'", ending),
-                                           ".json, .xml, .html or .txt", SourcePosition{file}});
-    }
-  }
+  for (const std::string& file : arguments.reports) expect_report_ending(file);
 }
 
 verify::Report report_on_geometry(Context& context, const Arguments& arguments) {
@@ -94,12 +86,7 @@ Answer verify_one(Context& context, const Arguments& arguments) {
       verify::write_report(report, temporary);
     });
   }
-  verify::TextStyle style;
-  style.colour = colour_wanted(STDOUT_FILENO);
-  style.width = terminal_width(STDOUT_FILENO);
-  context.print(verify::render_text(report, style));
-  // A verification in which no oracle answered has confirmed nothing: that is no yes.
-  return report.overall() == verify::Verdict::Passed ? Answer::Yes : Answer::No;
+  return print_report(context, report);
 }
 
 }  // namespace
