@@ -121,6 +121,13 @@ TEST(Regions, TakeComplementsOfCells) {
   EXPECT_EQ(where(model, {3, 0, 0}), "cell 3");
 }
 
+// Not surface 1, at whose positive side the middle is not.
+TEST(Regions, TakeTwoComplementsOfACellForTheCell) {
+  const Model model = read_geometry(deck_of("3 0 ##1\n1 0 -1 u=5\n", "1 so 1\n"), "text");
+  EXPECT_EQ(where(model, {0, 0, 0}), "cell 3");
+  EXPECT_EQ(where(model, {3, 0, 0}), "gap");
+}
+
 TEST(Regions, MayBeNestedWithoutEnd) {
   constexpr std::size_t depth = 40'000;
   std::string cell = "1 0 ";

@@ -14,7 +14,7 @@
 //   blanks                     the characters that separate
 //   complement, alternative    the characters of complement and union
 //   operand_names, end_name    for messages: what may be an operand, where the text ends
-//   operand(text, at, is_complemented) -> Tree
+//   operand(text, at, follows_complement) -> Tree
 //                              the operand at `at`, which is then behind it
 //   complement_of(Tree) -> Tree
 //   fail(found, expected, at)  throws Error(UnexpectedText) of a place in the text
@@ -50,10 +50,10 @@ class RegionExpression {
  private:
   // What is within a pair of parentheses that is open, or within none.
   struct Level {
-    std::size_t offset = 0;     // of the parenthesis
-    std::vector<Tree> terms;    // of the union, finished
-    std::vector<Tree> factors;  // of the intersection at work
-    bool complements_next = false;
+    std::size_t offset = 0;       // of the parenthesis
+    std::vector<Tree> terms;      // of the union, finished
+    std::vector<Tree> factors;    // of the intersection at work
+    std::size_t complements = 0;  // before the next operand
     bool awaits_operand = false;  // behind a complement or a union
   };
 
@@ -61,20 +61,20 @@ class RegionExpression {
     Level& level = open_.back();
     const char c = text_[at_];
     if (c == '(') {
-      open_.push_back({at_, {}, {}, false, false});
+      open_.push_back({at_, {}, {}, 0, false});
     } else if (c == ')') {
       if (open_.size() == 1) language_.fail("')' without '('", "as many of both", at_);
       Tree inner = closed();
       open_.pop_back();
       add(std::move(inner));
     } else if (c == Language::complement) {
-      level.complements_next = !level.complements_next;
+      ++level.complements;
       level.awaits_operand = true;
     } else if (c == Language::alternative) {
       finish_term();
       level.awaits_operand = true;
     } else if (Language::blanks.find(c) == std::string_view::npos) {
-      add(language_.operand(text_, at_, level.complements_next));
+      add(language_.operand(text_, at_, level.complements > 0));
       return;
     }
     ++at_;
@@ -82,7 +82,7 @@ class RegionExpression {
 
   void add(Tree operand) {
     Level& level = open_.back();
-    if (std::exchange(level.complements_next, false)) {
+    if (std::exchange(level.complements, 0) % 2 == 1) {
       operand = language_.complement_of(std::move(operand));
     }
     level.factors.push_back(std::move(operand));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -39,10 +40,10 @@ class GeometryLanguage {
 
   static Geometry complement_of(Geometry geometry) { return csg::complement(std::move(geometry)); }
 
-  Geometry operand(std::string_view text, std::size_t& at, bool is_complemented) const {
+  Geometry operand(std::string_view text, std::size_t& at, bool follows_complement) const {
     Operand result;
     result.at = at;
-    result.is_cell = is_complemented;
+    result.is_cell = follows_complement;
     const bool has_sign = text[at] == '-' || text[at] == '+';
     result.is_positive = text[at] != '-';
     if (has_sign) ++at;
@@ -134,6 +135,11 @@ std::vector<Parameter> parameters_of(const Card& card, std::size_t from) {
   return parameters;
 }
 
+openmc::Id material_of(const Card& card, std::int32_t number, std::size_t at) {
+  if (number >= 0) return number;
+  card.fail(ErrorId::BadArgument, fmt::format("the material {}", number), "one of at least 0", at);
+}
+
 class ParameterReader {
  public:
   ParameterReader(const Card& card, const Transformations& transformations,
@@ -143,6 +149,10 @@ class ParameterReader {
   void read(const Parameter& parameter, CellCard& cell) {
     parameter_ = &parameter;
     const std::string& name = parameter.name;
+    if (is_about_geometry(name) && !seen_.insert(name).second) {
+      fail(ErrorId::UnexpectedText, fmt::format("a second '{}'", name), "each parameter once",
+           parameter.at);
+    }
     if (parameter.has_star && name != "trcl" && name != "fill") {
       fail(ErrorId::UnknownNode, fmt::format("'*{:.40}'", name), "*trcl or *fill", parameter.at);
     }
@@ -160,7 +170,7 @@ class ParameterReader {
     } else if (name == "fill") {
       cell.fill = read_fill();
     } else if (name == "mat") {
-      cell.material = only_integer();
+      cell.material = material_of(card_, only_integer(), values().front().at);
     } else if (!is_passed_over(name)) {
       warnings_.push_back(
           {fmt::format("'{:.40}' is not read", name), card_.position(parameter.at)});
@@ -168,6 +178,9 @@ class ParameterReader {
   }
 
  private:
+  static bool is_about_geometry(std::string_view name) {
+    return name == "u" || name == "lat" || name == "trcl" || name == "fill" || name == "mat";
+  }
   // "wwn1", "tmp2": the number does not matter.
   static bool is_passed_over(std::string_view name) {
     name = name.substr(0, name.find_last_not_of("0123456789") + 1);
@@ -194,13 +207,7 @@ class ParameterReader {
       fail(ErrorId::WrongCount, fmt::format("{} values of '{}'", values().size(), parameter_->name),
            "one", values()[1].at);
     }
-    const std::int32_t value = integer_of(card_, values().front());
-    constexpr std::int32_t greatest = 999'999'999;
-    if (std::abs(std::int64_t{value}) > greatest) {
-      fail(ErrorId::NumberOutOfRange, fmt::format("{}", value), "at most nine digits",
-           values().front().at);
-    }
-    return value;
+    return integer_of(card_, values().front());
   }
 
   // What is in parentheses from values[at] on; `at` is then behind them.
@@ -351,6 +358,7 @@ class ParameterReader {
   const Transformations& transformations_;
   std::vector<Warning>& warnings_;
   const Parameter* parameter_ = nullptr;
+  std::set<std::string> seen_;
 };
 
 // ---- cards
@@ -371,9 +379,7 @@ class CellReader {
  private:
   struct Head {
     openmc::Id number = 0;
-    std::optional<std::size_t> like;  // the index of another card
-    std::vector<Word> words;          // up to the parameters
-    std::size_t parameters = 0;       // where they begin
+    std::size_t end = 0;  // behind the number
   };
 
   void add_number(const Card& card) {
@@ -395,7 +401,7 @@ class CellReader {
       card.fail(ErrorId::DuplicateId, fmt::format("a second cell {}", head.number),
                 "another number", first[0].at);
     }
-    head.parameters = first[0].at + first[0].text.size();
+    head.end = first[0].at + first[0].text.size();
     heads_.push_back(std::move(head));
   }
 
@@ -442,7 +448,7 @@ class CellReader {
     CellCard cell;
     cell.card = cell.geometry_card = &card;
     cell.number = heads_[index].number;
-    std::size_t parameters = heads_[index].parameters;
+    std::size_t parameters = heads_[index].end;
     if (!read_like(card, cell, parameters)) read_contents(card, cell, parameters);
     ParameterReader reader(card, transformations_, warnings_);
     for (const Parameter& parameter : parameters_of(card, parameters)) reader.read(parameter, cell);
@@ -462,11 +468,7 @@ class CellReader {
       card.fail(ErrorId::MissingValue, "a cell without a material",
                 "0, or a material and a density", at);
     }
-    cell.material = integer_of(card, words[0]);
-    if (cell.material < 0) {
-      card.fail(ErrorId::BadArgument, fmt::format("the material {}", cell.material),
-                "one of at least 0", words[0].at);
-    }
+    cell.material = material_of(card, integer_of(card, words[0]), words[0].at);
     const std::size_t contents = cell.material == 0 ? 1 : 2;
     if (words.size() < contents) {
       card.fail(ErrorId::MissingValue, "a material without a density", "a number", words[0].at);

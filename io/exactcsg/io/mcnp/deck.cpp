@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <utility>
 
 #include "exactcsg/io/mesh/text_scanner.hpp"
@@ -278,8 +279,9 @@ std::int32_t integer_of(const Card& card, const Word& word) {
   std::int32_t value = 0;
   const char* const end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, value);
-  if (error == std::errc::result_out_of_range) {
-    card.fail(ErrorId::NumberOutOfRange, quoted(word.text), "an integer of 32 bits", word.at);
+  constexpr std::int64_t greatest = 999'999'999;
+  if (error == std::errc::result_out_of_range || std::abs(std::int64_t{value}) > greatest) {
+    card.fail(ErrorId::NumberOutOfRange, quoted(word.text), "at most nine digits", word.at);
   }
   if (error != std::errc() || stop != end) {
     card.fail(ErrorId::UnexpectedText, quoted(word.text), "an integer", word.at);

@@ -419,8 +419,13 @@ class Planner {
     matrix[0] = {determinant * fitted.second[1], -determinant * fitted.second[0], 0};
     matrix[1] = {-determinant * fitted.first[1], determinant * fitted.first[0], 0};
     for (std::size_t i = 0; i < 2; ++i) lattice.numbering->offset[i] = middle[i];
-    plan_.element_count =
-        static_cast<std::size_t>((3 * lattice.rings * reach + 1) * lattice.layers);
+    const std::int64_t in_a_layer = 3 * lattice.rings * reach + 1;
+    constexpr std::int64_t most_elements = 100'000'000;
+    if (in_a_layer > most_elements / lattice.layers) {
+      fail(ErrorId::TooLarge, "a hexagonal lattice of more elements",
+           fmt::format("at most {}, in hexagonal rings round the array", most_elements));
+    }
+    plan_.element_count = static_cast<std::size_t>(in_a_layer * lattice.layers);
     openmc::Lattice shape = lattice;
     plan_.index_of = [fitted, middle, layers, shape = std::move(shape),
                       range = ranges_[2]](const std::array<std::int64_t, 3>& element) {

@@ -291,6 +291,10 @@ class GeometryBuilder {
                                      "its surfaces", operand.at);
           }
           const std::size_t other = complement_of(cell, operand);
+          if (cells_[other].lattice != 0) {
+            cell.geometry_card->fail(ErrorId::UnsupportedNode, "# of a lattice cell",
+                                     "the surfaces that bound the lattice", operand.at);
+          }
           if (states[other] == State::Open) {
             cell.geometry_card->fail(
                 ErrorId::BadArgument,

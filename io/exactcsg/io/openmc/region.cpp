@@ -36,7 +36,7 @@ class RegionLanguage {
     return Region::primitive(side);
   }
 
-  Region operand(std::string_view text, std::size_t& at, bool /*is_complemented*/) const {
+  Region operand(std::string_view text, std::size_t& at, bool /*follows_complement*/) const {
     const std::size_t begin = at;
     const bool is_negative = text[at] == '-';
     if (is_negative || text[at] == '+') ++at;
