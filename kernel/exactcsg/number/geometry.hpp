@@ -105,6 +105,13 @@ struct ApproximatePoint {
   double error = 0;
 };
 
+// What a Geometry wants to know of a point before it is added; any thread may find it.
+struct HashedPoint {
+  std::uint64_t hash = 0;
+  ApproximatePoint near;
+};
+HashedPoint hashed(const Point3& point);
+
 inline Vertex vertex_of(PointId id, const ApproximatePoint& near) {
   Vertex v;
   v.x = near.x;
@@ -209,7 +216,7 @@ class Geometry::Builder {
   // The same of points that `owner` keeps alive, as the Geometry will keep the owner: they are not
   // copied.
   void add_owner(std::shared_ptr<const void> owner);
-  PointId add_owned_point(const Point3& point);
+  PointId add_owned_point(const Point3& point, const HashedPoint& hashed);
   const Point3& point(PointId id) const;
   Vertex vertex(PointId id) const;
   // The plane through three points, counter-clockwise from outside. Lazy: nothing exact is computed

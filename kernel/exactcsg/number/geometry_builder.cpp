@@ -81,8 +81,8 @@ void Geometry::Builder::add_owner(std::shared_ptr<const void> owner) {
   state_->owners.push_back(std::move(owner));
 }
 
-PointId Geometry::Builder::add_owned_point(const Point3& point) {
-  return state_->points.intern_lasting(point);
+PointId Geometry::Builder::add_owned_point(const Point3& point, const HashedPoint& hashed) {
+  return state_->points.intern_lasting(point, hashed);
 }
 
 const Point3& Geometry::Builder::point(PointId id) const { return state_->points.exact(id); }

@@ -64,21 +64,23 @@ ApproximatePoint approximate(const Point3& point) {
   return result;
 }
 
+HashedPoint hashed(const Point3& point) { return {hash_of(point), approximate(point)}; }
+
 PointId PointTable::intern(const Point3& point) {
-  const auto [id, is_new] = find_or_add(point);
+  const auto [id, is_new] = find_or_add(point, hashed(point));
   if (is_new) points_.push_back(&copies_.emplace_back(point));
   return id;
 }
 
-PointId PointTable::intern_lasting(const Point3& point) {
-  const auto [id, is_new] = find_or_add(point);
+PointId PointTable::intern_lasting(const Point3& point, const HashedPoint& hashed) {
+  const auto [id, is_new] = find_or_add(point, hashed);
   if (is_new) points_.push_back(&point);
   return id;
 }
 
-std::pair<PointId, bool> PointTable::find_or_add(const Point3& point) {
+std::pair<PointId, bool> PointTable::find_or_add(const Point3& point, const HashedPoint& hashed) {
   if (points_.size() * 2 >= slots_.size()) enlarge_slots();
-  const std::uint64_t hash = hash_of(point);
+  const std::uint64_t hash = hashed.hash;
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = hash & mask;
   for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
@@ -88,7 +90,7 @@ std::pair<PointId, bool> PointTable::find_or_add(const Point3& point) {
   const auto id = static_cast<std::uint32_t>(points_.size());
   slots_[slot] = id + 1;
   hashes_.push_back(hash);
-  approximate_.push_back(exactcsg::approximate(point));
+  approximate_.push_back(hashed.near);
   return {PointId{id}, true};
 }
 

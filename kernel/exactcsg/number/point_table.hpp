@@ -21,7 +21,7 @@ class PointTable {
   // The id of the point of this value, a new one if there is none. COST: amortised O(1)
   PointId intern(const Point3& point);
   // The same without a copy. REQUIRES the point lasts as long as the table.
-  PointId intern_lasting(const Point3& point);
+  PointId intern_lasting(const Point3& point, const HashedPoint& hashed);
 
   std::size_t size() const { return points_.size(); }
   const Point3& exact(PointId id) const { return *points_[static_cast<std::size_t>(id)]; }
@@ -33,7 +33,7 @@ class PointTable {
 
  private:
   // Returns the id, and whether it is a new one, whose point is still to be set.
-  std::pair<PointId, bool> find_or_add(const Point3& point);
+  std::pair<PointId, bool> find_or_add(const Point3& point, const HashedPoint& hashed);
   void enlarge_slots();
 
   std::vector<const Point3*> points_;

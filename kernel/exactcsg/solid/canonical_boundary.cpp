@@ -148,11 +148,7 @@ class Merger {
   }
 
   Boundary merge() {
-    std::vector<PieceEdge> edges = cancel_equal_edges();
-    check();
-    const std::vector<LineNumber> line_of_edge = number_lines(edges);
-    check();
-    add_up(edges, line_of_edge);
+    sum_edges();
     check();
     mark_vertices();
     touch_edges();
@@ -161,6 +157,15 @@ class Merger {
   }
 
  private:
+  // Sets lines_, content_ and segments_.
+  void sum_edges() {
+    const std::vector<PieceEdge> edges = cancel_equal_edges();
+    check();
+    const std::vector<LineNumber> line_of_edge = number_lines(edges);
+    check();
+    add_up(edges, line_of_edge);
+  }
+
   static std::size_t count_pieces(const std::vector<PieceBuffer>& buffers) {
     std::size_t count = 0;
     for (const PieceBuffer& buffer : buffers) count += buffer.pieces.size();
@@ -876,19 +881,31 @@ class Merger {
     return result;
   }
 
-  Boundary assemble() {
+  // Gives up what is known of lines: their memory is wanted for the result.
+  std::vector<FaceEdge> edges_on_lines() {
     std::vector<FaceEdge> edges;
+    edges.reserve(segments_.size());
     for (LineNumber line = 0; line < content_.size(); ++line) {
       for_each_run(line, [&](const Run& run) {
         edges.push_back({run.owner.plane, faces_.find(run.owner.piece), run.from, run.to});
       });
     }
+    content_ = {};
+    segments_ = {};
+    stations_ = {};
+    rank_ = {};
+    lines_ = {};
+    return edges;
+  }
+
+  Boundary assemble() {
+    std::vector<FaceEdge> edges = edges_on_lines();
     const std::size_t count_on_lines = edges.size();
     std::vector<SingleFace> singles = single_faces(edges);
     Boundary boundary;
-    boundary.edges.reserve(count_on_lines + settled_edges_.size());
     const std::vector<VertexNumber> renumbered = set_vertices(boundary);
     check();
+    boundary.edges.reserve(count_on_lines + settled_edges_.size());
     const auto add_edge_between = [&](VertexNumber from, VertexNumber to) {
       const auto [low, high] = std::minmax(renumbered[from], renumbered[to]);
       boundary.edges.push_back({low, high});
@@ -897,6 +914,7 @@ class Merger {
     for (const SettledEdge& edge : settled_edges_) {
       for_each_part(edge.from, edge.to, add_edge_between);
     }
+    settled_edges_ = {};
     for (FaceEdge& edge : edges) {
       edge.from = renumbered[edge.from];
       edge.to = renumbered[edge.to];
@@ -919,32 +937,28 @@ class Merger {
   std::vector<Position> positions_of(const std::vector<VertexNumber>& used,
                                      std::vector<Point3>& computed) const {
     std::vector<Position> positions(used.size());
-    std::vector<std::size_t> meeting_points;
+    std::size_t meeting_points = 0;
     for (std::size_t i = 0; i < used.size(); ++i) {
-      const Vertex& v = vertices_[used[i]];
       positions[i].number = used[i];
-      if (v.is_point) {
-        positions[i].exact = &geometry_.point(v.point);
-      } else {
-        meeting_points.push_back(i);
-      }
+      if (!vertices_[used[i]].is_point) positions[i].computed = meeting_points++;
     }
-    computed.resize(meeting_points.size());
-    in_parallel(threads_, meeting_points.size(), [&](std::size_t k) {
-      const std::size_t i = meeting_points[k];
-      computed[k] = geometry_.exact_point(vertices_[used[i]]);
-      positions[i].exact = &computed[k];
-      positions[i].computed = k;
-    });
-    for (Position& position : positions) {
+    computed.resize(meeting_points);
+    in_parallel(threads_, positions.size(), [&](std::size_t i) {
+      Position& position = positions[i];
       const Vertex& v = vertices_[position.number];
+      if (v.is_point) {
+        position.exact = &geometry_.point(v.point);
+      } else {
+        computed[position.computed] = geometry_.exact_point(v);
+        position.exact = &computed[position.computed];
+      }
       const Point3& exact = *position.exact;
       // An input point's doubles are the nearest ones already.
       position.approximate = v.is_point && std::isfinite(v.error)
                                  ? std::array{v.x, v.y, v.z}
                                  : std::array{nearest_double(exact.x), nearest_double(exact.y),
                                               nearest_double(exact.z)};
-    }
+    });
     return positions;
   }
 

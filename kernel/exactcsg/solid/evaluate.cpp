@@ -79,7 +79,7 @@ CellResult run(const Scene& scene, const EvaluateOptions& options) {
 
 Boundary evaluate(const Solid& solid, const EvaluateOptions& options) {
   if (options.progress != nullptr) options.progress->begin("prepare", 0);
-  Scene scene = make_scene(solid);
+  Scene scene = make_scene(solid, options.threads);
   if (options.progress != nullptr) options.progress->begin("decompose", scene.facets.size());
   CellResult result = run(scene, options);
   require_bounded(solid, scene, result.buffers);

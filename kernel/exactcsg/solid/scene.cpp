@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <unordered_map>
 
 #include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/polygon.hpp"
 #include "exactcsg/solid/polyhedron_signs.hpp"
 
@@ -17,24 +17,19 @@ namespace {
 
 constexpr double largest_coordinate = 1e290;
 
-constexpr std::uint64_t directed_edge(std::uint32_t from, std::uint32_t to) {
-  return (static_cast<std::uint64_t>(from) << 32U) | to;
-}
-
-using Double3 = std::array<double, 3>;
-
 // Of a few well-spread triples of corners the one that spans most: it conditions the plane best.
-// `near` are the vertices rounded.
+// `near` are the vertices, rounded.
 std::array<std::uint32_t, 3> spanning_triple(const Polyhedron& polyhedron,
-                                             const std::vector<Double3>& near, const Facet& facet) {
+                                             const std::vector<HashedPoint>& near,
+                                             const Facet& facet) {
   const auto count = static_cast<std::uint32_t>(facet.size());
   if (count == 3) return {facet[0], facet[1], facet[2]};
   const auto span_of = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    const Double3& p = near[facet[i]];
-    const Double3& q = near[facet[j]];
-    const Double3& r = near[facet[k]];
-    const double ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
-    const double vx = r[0] - p[0], vy = r[1] - p[1], vz = r[2] - p[2];
+    const ApproximatePoint& p = near[facet[i]].near;
+    const ApproximatePoint& q = near[facet[j]].near;
+    const ApproximatePoint& r = near[facet[k]].near;
+    const double ux = q.x - p.x, uy = q.y - p.y, uz = q.z - p.z;
+    const double vx = r.x - p.x, vy = r.y - p.y, vz = r.z - p.z;
     return std::abs(uy * vz - uz * vy) + std::abs(uz * vx - ux * vz) + std::abs(ux * vy - uy * vx);
   };
   std::array<std::uint32_t, 3> best{0, 1, 2};
@@ -62,40 +57,84 @@ std::array<std::uint32_t, 3> spanning_triple(const Polyhedron& polyhedron,
   return {facet[best[0]], facet[best[1]], facet[best[2]]};
 }
 
-// Which facet walks a directed edge. COST: O(n log n) to build, O(log n) to ask.
-class EdgeOwners {
- public:
-  explicit EdgeOwners(const Polyhedron& polyhedron) {
-    for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
-      const Facet& facet = polyhedron.facets[f];
-      for (std::size_t i = 0; i < facet.size(); ++i) {
-        owners_.push_back({directed_edge(facet[i], facet[(i + 1) % facet.size()]), f});
-      }
-    }
-    sort_in_buckets(
-        owners_, polyhedron.vertices.size(), [](const Owner& owner) { return owner.edge >> 32U; },
-        [](const Owner& a, const Owner& b) { return a.edge < b.edge; });
-  }
-
-  // THROWS Error(InternalError) if there is none.
-  std::uint32_t of(std::uint32_t from, std::uint32_t to) const {
-    const std::uint64_t edge = directed_edge(from, to);
-    const auto owner = std::lower_bound(
-        owners_.begin(), owners_.end(), edge,
-        [](const Owner& candidate, std::uint64_t wanted) { return candidate.edge < wanted; });
-    if (owner == owners_.end() || owner->edge != edge) {
-      throw Error(ErrorId::InternalError, {"a primitive that is not closed", "a closed one"});
-    }
-    return owner->facet;
-  }
-
- private:
-  struct Owner {
-    std::uint64_t edge;
+// Of every side of every facet in turn: the facet that walks it the other way.
+// THROWS Error(InternalError) if there is none. COST: O(n log n)
+std::vector<std::uint32_t> neighbours_of(const Polyhedron& polyhedron) {
+  struct Side {
+    std::uint32_t low;
+    std::uint32_t high;
     std::uint32_t facet;
+    std::uint32_t number;
+    bool ascends;
   };
-  std::vector<Owner> owners_;
+  std::vector<Side> sides;
+  for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
+    const Facet& facet = polyhedron.facets[f];
+    for (std::size_t i = 0; i < facet.size(); ++i) {
+      const std::uint32_t from = facet[i];
+      const std::uint32_t to = facet[i + 1 == facet.size() ? 0 : i + 1];
+      const auto number = static_cast<std::uint32_t>(sides.size());
+      sides.push_back({std::min(from, to), std::max(from, to), f, number, from < to});
+    }
+  }
+  sort_in_buckets(
+      sides, polyhedron.vertices.size(), [](const Side& side) { return side.low; },
+      [](const Side& a, const Side& b) {
+        return a.high != b.high ? a.high < b.high : a.number < b.number;
+      });
+  std::vector<std::uint32_t> result(sides.size());
+  for (auto begin = sides.begin(); begin != sides.end();) {
+    const auto end = std::find_if(begin, sides.end(), [&](const Side& side) {
+      return side.low != begin->low || side.high != begin->high;
+    });
+    for (auto side = begin; side != end; ++side) {
+      const auto other =
+          std::find_if(begin, end, [&](const Side& s) { return s.ascends != side->ascends; });
+      if (other == end) {
+        throw Error(ErrorId::InternalError, {"a primitive that is not closed", "a closed one"});
+      }
+      result[side->number] = other->facet;
+    }
+    begin = end;
+  }
+  return result;
+}
+
+// What can be said of a polyhedron by itself.
+struct PreparedPolyhedron {
+  std::vector<HashedPoint> points;
+  std::vector<std::array<std::uint32_t, 3>> triples;  // of facets: corners that span the plane
+  std::vector<std::uint32_t> neighbours;
+  std::vector<bool> flat_sides;  // the neighbour lies in the same plane; empty: none does
 };
+
+bool coplanar(const PolyhedronSigns& signs, const std::array<std::uint32_t, 3>& triple,
+              const Facet& other) {
+  return std::all_of(other.begin(), other.end(), [&](std::uint32_t corner) {
+    return signs.orientation(triple[0], triple[1], triple[2], corner) == Sign::Zero;
+  });
+}
+
+PreparedPolyhedron prepared(const Polyhedron& polyhedron, bool convex) {
+  PreparedPolyhedron result;
+  result.points.reserve(polyhedron.vertices.size());
+  for (const Point3& vertex : polyhedron.vertices) result.points.push_back(hashed(vertex));
+  result.triples.reserve(polyhedron.facets.size());
+  for (const Facet& facet : polyhedron.facets) {
+    result.triples.push_back(spanning_triple(polyhedron, result.points, facet));
+  }
+  result.neighbours = neighbours_of(polyhedron);
+  if (convex) return result;  // neighbours of a convex polytope are not coplanar
+  const PolyhedronSigns signs(polyhedron.vertices);
+  std::size_t side = 0;
+  for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
+    for (std::size_t i = 0; i < polyhedron.facets[f].size(); ++i, ++side) {
+      const Facet& neighbour = polyhedron.facets[result.neighbours[side]];
+      result.flat_sides.push_back(coplanar(signs, result.triples[f], neighbour));
+    }
+  }
+  return result;
+}
 
 // A plane through the side, not the facet's own: it contains the axis that the facet's normal
 // leans to most.
@@ -135,8 +174,9 @@ SceneBounds bounds_of(const Scene& scene) {
 
 class SceneBuilder {
  public:
-  explicit SceneBuilder(const Solid& solid) {
+  SceneBuilder(const Solid& solid, unsigned threads) {
     tree_ = csg::flatten(solid, [this](const Primitive& primitive) { return index_of(primitive); });
+    add_shapes(threads);
   }
 
   Scene finish() && {
@@ -162,14 +202,24 @@ class SceneBuilder {
     std::size_t corner_count;  // 0: a half-space
   };
 
+  // What becomes of a primitive; it lasts as long as the solid.
+  struct Shape {
+    const HalfSpace* half_space = nullptr;  // null: the polyhedron
+    std::shared_ptr<const Polyhedron> polyhedron;
+    bool convex = true;
+  };
+
   PrimitiveIndex index_of(const Primitive& primitive) {
-    const std::shared_ptr<const Polyhedron> polyhedron = shared_polyhedron_of(primitive);
-    if (polyhedron == nullptr) return add_half_space(std::get<HalfSpace>(primitive.shape));
-    const auto [place, is_new] =
-        known_.try_emplace(polyhedron.get(), static_cast<PrimitiveIndex>(primitives_.size()));
+    const auto next = static_cast<PrimitiveIndex>(shapes_.size());
+    std::shared_ptr<const Polyhedron> polyhedron = shared_polyhedron_of(primitive);
+    if (polyhedron == nullptr) {
+      shapes_.push_back({&std::get<HalfSpace>(primitive.shape), nullptr, true});
+      return next;
+    }
+    const auto [place, is_new] = known_.try_emplace(polyhedron.get(), next);
     if (is_new) {
-      builder_.add_owner(polyhedron);
-      add_polyhedron(*polyhedron, std::holds_alternative<ConvexPolytope>(primitive.shape));
+      const bool convex = std::holds_alternative<ConvexPolytope>(primitive.shape);
+      shapes_.push_back({nullptr, std::move(polyhedron), convex});
     }
     return place->second;
   }
@@ -182,7 +232,30 @@ class SceneBuilder {
     return nullptr;
   }
 
-  PrimitiveIndex add_half_space(const HalfSpace& half_space) {
+  // Numbers points and planes in the order of the primitives. What can be found out of a primitive
+  // by itself is found by several threads, of a few primitives at a time.
+  void add_shapes(unsigned threads) {
+    const std::size_t at_a_time = threads == 1 ? 1 : 64;
+    std::vector<PreparedPolyhedron> some(at_a_time);
+    for (std::size_t first = 0; first < shapes_.size(); first += at_a_time) {
+      const std::size_t count = std::min(at_a_time, shapes_.size() - first);
+      in_parallel(threads, count, [&](std::size_t i) {
+        const Shape& shape = shapes_[first + i];
+        if (shape.polyhedron) some[i] = prepared(*shape.polyhedron, shape.convex);
+      });
+      for (std::size_t i = 0; i < count; ++i) {
+        const Shape& shape = shapes_[first + i];
+        if (shape.polyhedron) {
+          builder_.add_owner(shape.polyhedron);
+          add_polyhedron(*shape.polyhedron, shape.convex, some[i]);
+        } else {
+          add_half_space(*shape.half_space);
+        }
+      }
+    }
+  }
+
+  void add_half_space(const HalfSpace& half_space) {
     const auto index = static_cast<PrimitiveIndex>(primitives_.size());
     primitives_.push_back({true, static_cast<FacetIndex>(facets_.size()), 1});
     facets_.push_back({index, builder_.add_plane(half_space.plane), 0, 0});
@@ -192,56 +265,41 @@ class SceneBuilder {
     }
     largest_offset_ = std::max(largest_offset_, std::abs(plane.d.get_d()));
     has_half_spaces_ = true;
-    return index;
   }
 
-  void add_polyhedron(const Polyhedron& polyhedron, bool convex) {
+  void add_polyhedron(const Polyhedron& polyhedron, bool convex, const PreparedPolyhedron& known) {
     const auto index = static_cast<PrimitiveIndex>(primitives_.size());
     primitives_.push_back({convex, static_cast<FacetIndex>(facets_.size()),
                            static_cast<std::uint32_t>(polyhedron.facets.size())});
     std::vector<PointId> points;
-    std::vector<Double3> near;
     points.reserve(polyhedron.vertices.size());
-    near.reserve(polyhedron.vertices.size());
-    for (const Point3& vertex : polyhedron.vertices) {
-      points.push_back(builder_.add_owned_point(vertex));
-      const Vertex rounded = builder_.vertex(points.back());
-      near.push_back({rounded.x, rounded.y, rounded.z});
-      extend_bounds(near.back(), rounded.error);
+    for (std::size_t v = 0; v < polyhedron.vertices.size(); ++v) {
+      points.push_back(builder_.add_owned_point(polyhedron.vertices[v], known.points[v]));
+      extend_bounds(known.points[v].near);
     }
-    std::vector<std::array<std::uint32_t, 3>> triples;
     std::vector<std::uint32_t> planes;
-    triples.reserve(polyhedron.facets.size());
     planes.reserve(polyhedron.facets.size());
-    for (const Facet& facet : polyhedron.facets) {
-      triples.push_back(spanning_triple(polyhedron, near, facet));
-      const auto [a, b, c] = triples.back();
+    for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
+      const auto [a, b, c] = known.triples[f];
       planes.push_back(builder_.add_plane(points[a], points[b], points[c]));
-      for (const std::uint32_t v : facet) builder_.add_incidence(points[v], planes.back());
+      for (const std::uint32_t v : polyhedron.facets[f]) {
+        builder_.add_incidence(points[v], planes.back());
+      }
     }
-    const EdgeOwners owners(polyhedron);
-    std::optional<const PolyhedronSigns> signs;  // neighbours of a convex polytope are not coplanar
-    if (!convex) signs.emplace(polyhedron.vertices);
+    std::size_t side = 0;
     for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
       const Facet& facet = polyhedron.facets[f];
       facets_.push_back({index, planes[f], corners_.size(), facet.size()});
       corner_total_ += facet.size();
-      for (std::size_t i = 0; i < facet.size(); ++i) {
+      for (std::size_t i = 0; i < facet.size(); ++i, ++side) {
         const std::uint32_t from = facet[i];
         const std::uint32_t to = facet[(i + 1) % facet.size()];
-        const std::uint32_t neighbour = owners.of(to, from);
-        const bool flat = signs && coplanar(*signs, triples[f], polyhedron.facets[neighbour]);
-        corners_.push_back({points[from], flat ? plane_across_side(polyhedron, triples[f], from, to)
-                                               : planes[neighbour]});
+        const bool flat = !known.flat_sides.empty() && known.flat_sides[side];
+        corners_.push_back(
+            {points[from], flat ? plane_across_side(polyhedron, known.triples[f], from, to)
+                                : planes[known.neighbours[side]]});
       }
     }
-  }
-
-  static bool coplanar(const PolyhedronSigns& signs, const std::array<std::uint32_t, 3>& triple,
-                       const Facet& other) {
-    return std::all_of(other.begin(), other.end(), [&](std::uint32_t corner) {
-      return signs.orientation(triple[0], triple[1], triple[2], corner) == Sign::Zero;
-    });
   }
 
   std::uint32_t plane_across_side(const Polyhedron& polyhedron,
@@ -253,10 +311,11 @@ class SceneBuilder {
   }
 
   // An infinite error: coordinates that doubles cannot hold.
-  void extend_bounds(const Double3& coordinates, double error) {
+  void extend_bounds(const ApproximatePoint& near) {
+    const std::array<double, 3> coordinates{near.x, near.y, near.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double value = coordinates[axis];
-      if (!(std::abs(value) <= largest_coordinate && error <= largest_coordinate)) {
+      if (!(std::abs(value) <= largest_coordinate && near.error <= largest_coordinate)) {
         throw Error(ErrorId::NumberOutOfRange, {"a coordinate beyond 1e290", ""});
       }
       lower_[axis] = std::min(lower_[axis], value);
@@ -347,6 +406,7 @@ class SceneBuilder {
     scene.half_space_corners.insert(scene.half_space_corners.end(), polygon.begin(), polygon.end());
   }
 
+  std::vector<Shape> shapes_;
   Geometry::Builder builder_;
   std::vector<ScenePrimitive> primitives_;
   std::vector<PendingFacet> facets_;
@@ -379,6 +439,8 @@ void widen(std::array<Range, 3>& bounds, const CornerView& corners) {
   }
 }
 
-Scene make_scene(const Solid& solid) { return SceneBuilder(solid).finish(); }
+Scene make_scene(const Solid& solid, unsigned threads) {
+  return SceneBuilder(solid, threads).finish();
+}
 
 }  // namespace exactcsg

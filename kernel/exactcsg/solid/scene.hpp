@@ -171,8 +171,9 @@ struct Scene {
 };
 
 // Occurrences of one handle in the tree become one primitive.
+// threads: as in EvaluateOptions; the scene does not depend on it.
 // THROWS Error(NumberOutOfRange) if a coordinate exceeds 1e290 in magnitude.
 // COST: O(facets log facets).
-Scene make_scene(const Solid& solid);
+Scene make_scene(const Solid& solid, unsigned threads = 1);
 
 }  // namespace exactcsg
