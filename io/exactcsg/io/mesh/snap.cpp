@@ -13,6 +13,7 @@
 
 #include "exactcsg/io/mesh/written_surface.hpp"
 #include "exactcsg/solid/fill_rule.hpp"
+#include "exactcsg/solid/measures.hpp"
 #include "exactcsg/solid/polyhedron_signs.hpp"
 
 namespace exactcsg::io {
@@ -233,17 +234,11 @@ Rational volume_of(const Polyhedron& polyhedron) {
   return six / 6;
 }
 
-// Fans of the loops, whatever their shape.
-Rational volume_of(const Boundary& boundary) {
-  Polyhedron fans{boundary.vertices, {}};
-  for (const BoundaryFace& face : boundary.faces) {
-    for (const auto& loop : face.loops) {
-      for (std::size_t k = 2; k < loop.size(); ++k) {
-        fans.facets.push_back({loop[0], loop[k - 1], loop[k]});
-      }
-    }
-  }
-  return volume_of(fans);
+// To more digits than are ever shown; as a fraction it may have thousands for each vertex.
+Rational volume_near(const Boundary& boundary) {
+  constexpr int bits = 160;
+  const Enclosure volume = enclose_volume(boundary, bits);
+  return (volume.lower + volume.upper) / 2;
 }
 
 Error without_volume() {
@@ -269,7 +264,7 @@ std::optional<SnappedSurface> snap_on(const Boundary& boundary, const Rounder& r
     Polyhedron polyhedron = polyhedron_of(now.surface);
     fault = examine(polyhedron).fault;
     if (!fault) {
-      const Rational change = volume_of(polyhedron) - volume_of(boundary);
+      const Rational change = volume_of(polyhedron) - volume_near(boundary);
       return SnappedSurface{std::move(now.surface), rounds, *flat,
                             round.cell(),           moved,  nearest_double(change)};
     }
