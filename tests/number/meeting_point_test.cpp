@@ -98,5 +98,42 @@ TEST(MeetingPoint, OfFacetsOfTetrahedra) {
   EXPECT_GT(compared, 1000);
 }
 
+// Two planes through an edge that hardly differ, as those of fine meshes: doubles of the planes do
+// not determine where a wall crosses the edge, those of its ends do.
+TEST(MeetingPoint, OfAnEdgeBetweenNearlyParallelPlanes) {
+  RandomPoints random(3);
+  int compared = 0;
+  for (int round = 0; round < 400; ++round) {
+    const std::array<Point3, 3> points{random(1), random(2), random(1)};
+    const Rational nearly = Rational(1, 1L << (30 + round % 25));
+    const Point3& c = points[2];
+    const std::array<Point3, 2> tips{c, Point3{c.x + nearly, c.y + nearly, c.z - 2 * nearly}};
+    Geometry::Builder builder;
+    const PointId p = builder.add_point(points[0]);
+    const PointId q = builder.add_point(points[1]);
+    std::array<reference::RationalPlane, 2> exact;
+    for (std::size_t i = 0; i < 2; ++i) {
+      builder.add_plane(p, q, builder.add_point(tips[i]));
+      exact[i] = reference::plane_through(points[0], points[1], tips[i]);
+    }
+    const Geometry geometry = std::move(builder).build();
+    const double middle = round_wall_position(Rational((points[0].x + points[1].x) / 2).get_d());
+    const reference::RationalPlane wall_plane{{1, 0, 0}, -rational_of(middle)};
+    if (reference::determinant(exact[0], exact[1], wall_plane) == 0) continue;
+    ++compared;
+    const Vertex v =
+        geometry.meet(geometry.plane(0).plane, geometry.plane(1).plane,
+                      PlaneRef::of_wall(Axis::X, middle), geometry.vertex(p), geometry.vertex(q));
+    const Point3 expected = reference::meeting_point(exact[0], exact[1], wall_plane);
+    EXPECT_EQ(geometry.exact_point(v), expected);
+    const Rational error = rational_of(v.error);
+    EXPECT_LE(abs(Rational(rational_of(v.x) - expected.x)), error);
+    EXPECT_LE(abs(Rational(rational_of(v.y) - expected.y)), error);
+    EXPECT_LE(abs(Rational(rational_of(v.z) - expected.z)), error);
+    EXPECT_LE(v.error, 1e-5);
+  }
+  EXPECT_GT(compared, 300);
+}
+
 }  // namespace
 }  // namespace exactcsg

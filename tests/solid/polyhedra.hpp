@@ -10,6 +10,10 @@
 
 namespace exactcsg::test {
 
+inline Polyhedron box_polyhedron(int x0, int y0, int z0, int x1, int y1, int z1) {
+  return *make_box({x0, y0, z0}, {x1, y1, z1}).polyhedron;
+}
+
 // A facet of n corners as n - 2 triangles, as STL files have it.
 inline Polyhedron triangulated(const Polyhedron& p) {
   Polyhedron result{p.vertices, {}};

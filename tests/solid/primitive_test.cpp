@@ -46,10 +46,6 @@ Error error_of(Action action) {
 #define EXPECT_REFUSED(expression, error_id) \
   EXPECT_EQ(error_of([&] { (void)(expression); }).id(), ErrorId::error_id)
 
-Polyhedron box_polyhedron(int x0, int y0, int z0, int x1, int y1, int z1) {
-  return *make_box({x0, y0, z0}, {x1, y1, z1}).polyhedron;
-}
-
 Polyhedron tetrahedron() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
           {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};

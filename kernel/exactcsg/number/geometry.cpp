@@ -83,7 +83,9 @@ Point3 Geometry::exact_point(const Vertex& v) const {
   return point_of(meeting_point(load<Integer>(p), load<Integer>(q), load<Integer>(r)));
 }
 
-Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r) const {
+namespace {
+
+Vertex meeting_vertex(PlaneRef p, PlaneRef q, PlaneRef r) {
   if (q < p) std::swap(p, q);
   if (r < q) std::swap(q, r);
   if (q < p) std::swap(p, q);
@@ -91,22 +93,53 @@ Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r) const {
   v.planes[0] = p;
   v.planes[1] = q;
   v.planes[2] = r;
-  std::optional<ApproximatePoint> position =
-      approximate_meeting_point({approximate(p), approximate(q), approximate(r)});
-  if (!position) {
-    const auto [s, t, u] = data_->operands(v);
-    const Homogeneous<Integer> exact =
-        meeting_point(load<Integer>(s), load<Integer>(t), load<Integer>(u));
-    if (exact.w == 0) {
-      throw Error(ErrorId::InternalError,
-                  {"three planes that share a direction", "planes that meet in one point"});
-    }
-    position = exactcsg::approximate(point_of(exact));
+  return v;
+}
+
+void set_position(Vertex& v, const ApproximatePoint& position) {
+  v.x = position.x;
+  v.y = position.y;
+  v.z = position.z;
+  v.error = position.error;
+}
+
+ApproximatePoint position_of(const Vertex& v) { return {v.x, v.y, v.z, v.error}; }
+
+}  // namespace
+
+// The position of a meeting point, computed exactly and rounded.
+ApproximatePoint Geometry::exactly_met(const Vertex& v) const {
+  const auto [s, t, u] = data_->operands(v);
+  const Homogeneous<Integer> exact =
+      meeting_point(load<Integer>(s), load<Integer>(t), load<Integer>(u));
+  if (exact.w == 0) {
+    throw Error(ErrorId::InternalError,
+                {"three planes that share a direction", "planes that meet in one point"});
   }
-  v.x = position->x;
-  v.y = position->y;
-  v.z = position->z;
-  v.error = position->error;
+  return exactcsg::approximate(point_of(exact));
+}
+
+Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r) const {
+  Vertex v = meeting_vertex(p, q, r);
+  const std::optional<ApproximatePoint> position = approximate_meeting_point(
+      {approximate(v.planes[0]), approximate(v.planes[1]), approximate(v.planes[2])});
+  set_position(v, position ? *position : exactly_met(v));
+  return v;
+}
+
+Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r, const Vertex& from,
+                      const Vertex& to) const {
+  Vertex v = meeting_vertex(p, q, r);
+  const std::array<ApproximatePlane, 3> planes{approximate(v.planes[0]), approximate(v.planes[1]),
+                                               approximate(v.planes[2])};
+  std::optional<ApproximatePoint> position = approximate_meeting_point(planes);
+  if (!position) {
+    position = approximate_crossing(approximate(r), position_of(from), position_of(to));
+    if (position) {
+      for (const ApproximatePlane& plane : planes) snap(plane, *position);
+    }
+  }
+  set_position(v, position ? *position : exactly_met(v));
   return v;
 }
 

@@ -151,6 +151,9 @@ class Geometry {
   // The certified error is small compared with the position (a badly conditioned meeting point is
   // computed exactly and rounded).
   Vertex meet(PlaneRef p, PlaneRef q, PlaneRef r) const;
+  // The same where r crosses the segment between two vertices on p and q, which lie on different
+  // sides of it: found from those where p and q are nearly parallel.
+  Vertex meet(PlaneRef p, PlaneRef q, PlaneRef r, const Vertex& from, const Vertex& to) const;
 
   // The sign of n.v + d with the stored normal n.
   // LAW predicate.1  equals side(exact_plane_value(plane), exact_point(v)).
@@ -199,6 +202,7 @@ class Geometry {
   static ApproximatePlane approximate_wall(PlaneRef wall);
   double filtered_side(const Vertex& v, PlaneRef plane) const;
   Sign side_beyond_filter(const Vertex& v, PlaneRef plane, TierStatistics& statistics) const;
+  ApproximatePoint exactly_met(const Vertex& v) const;
 
   std::unique_ptr<Data> data_;
   const ApproximatePlane* approximate_ = nullptr;         // by table index; owned by data_

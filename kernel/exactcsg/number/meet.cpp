@@ -33,7 +33,18 @@ double determinant(const ApproximatePlane& p, const DoubleVector& cofactors) {
   return p.a * cofactors.x + p.b * cofactors.y + p.c * cofactors.z;
 }
 
-// The exact coordinate of a point of an exactly axis-parallel plane.
+// n x + d of the doubles, and how far it may be off what the true plane and point give: as in
+// Geometry::filtered_side.
+ApproximateDeterminant value_at(const ApproximatePlane& plane, const ApproximatePoint& point) {
+  const double length = std::fabs(point.x) + std::fabs(point.y) + std::fabs(point.z);
+  const double value = plane.a * point.x + plane.b * point.y + plane.c * point.z + plane.d;
+  return {value, length * (plane.normal_error + 6 * unit) +
+                     (plane.offset_error + std::fabs(plane.d) * (6 * unit)) + 4 * point.error +
+                     0x1p-1022};
+}
+
+}  // namespace
+
 void snap(const ApproximatePlane& plane, ApproximatePoint& point) {
   const std::optional<Axis> axis = exact_axis(plane);
   if (!axis) return;
@@ -42,8 +53,6 @@ void snap(const ApproximatePlane& plane, ApproximatePoint& point) {
   const double position = -plane.d * normal + 0.0;
   (*axis == Axis::X ? point.x : *axis == Axis::Y ? point.y : point.z) = position;
 }
-
-}  // namespace
 
 ApproximateDeterminant approximate_determinant(const ApproximatePlane& p, const ApproximatePlane& q,
                                                const ApproximatePlane& r) {
@@ -97,6 +106,42 @@ std::optional<ApproximatePoint> approximate_meeting_point(
   point.error = weighted / (smallest_det * (1 - contraction)) * error_inflation;
   const double scale = std::max({length, std::fabs(p.d), std::fabs(q.d), std::fabs(r.d)});
   if (!(point.error <= poorest_position * scale)) return std::nullopt;
+  return point;
+}
+
+// With the values s, t of opposite signs at the two ends, known to e and f, the crossing divides
+// the segment at s / (s - t); the true values S, T give
+//   S / (S - T) - s / (s - t) = (s (T - t) - t (S - s)) / ((S - T) (s - t)),
+// at most max(e, f) / (|s - t| - e - f) in magnitude. The true ends are off by their errors, and so
+// is any point between them.
+std::optional<ApproximatePoint> approximate_crossing(const ApproximatePlane& plane,
+                                                     const ApproximatePoint& from,
+                                                     const ApproximatePoint& to) {
+  const ApproximateDeterminant s = value_at(plane, from);
+  const ApproximateDeterminant t = value_at(plane, to);
+  if (!(s.value < 0 ? t.value > 0 : s.value > 0 && t.value < 0)) return std::nullopt;
+  const double difference = s.value - t.value;
+  const double least_difference = std::fabs(difference) * (1 - 4 * unit) - (s.error + t.error);
+  if (!(least_difference > 0)) return std::nullopt;
+  const double share = s.value / difference;
+  const double share_error = std::max(s.error, t.error) / least_difference + 4 * unit;
+  const double end_error = std::max(from.error, to.error);
+  ApproximatePoint point;
+  double longest = 0;
+  const auto between = [&](double a, double b) {
+    longest = std::max(longest, std::fabs(b - a));
+    return a + share * (b - a);
+  };
+  point.x = between(from.x, to.x);
+  point.y = between(from.y, to.y);
+  point.z = between(from.z, to.z);
+  const double length = std::fabs(point.x) + std::fabs(point.y) + std::fabs(point.z);
+  point.error = (end_error + (longest + 2 * end_error) * (share_error + 4 * unit) +
+                 2 * unit * length + 0x1p-1022) *
+                error_inflation;
+  if (!(point.error <= poorest_position * std::max(length, std::fabs(plane.d)))) {
+    return std::nullopt;
+  }
   return point;
 }
 

@@ -12,6 +12,7 @@
 #include "exactcsg/csg/prune.hpp"
 #include "exactcsg/csg/walk.hpp"
 #include "exactcsg/skeleton/divacon.hpp"
+#include "exactcsg/solid/mesh_membership.hpp"
 
 namespace exactcsg {
 
@@ -136,7 +137,7 @@ class PointInCell {
     if (scene_.primitives[facets.front().primitive].convex) {
       return inside_all ? Membership::In : Membership::Out;
     }
-    return mesh_membership(scene_.geometry, scene_.geometry.exact_point(point), polygons);
+    return mesh_membership(scene_.geometry, point, polygons, statistics_);
   }
 
   const Scene& scene_;

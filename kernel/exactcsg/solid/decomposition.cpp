@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "exactcsg/csg/prune.hpp"
+#include "exactcsg/solid/mesh_membership.hpp"
 #include "exactcsg/solid/per_thread.hpp"
 #include "exactcsg/solid/polygon.hpp"
 
@@ -254,7 +255,7 @@ class Decomposition::Divider {
     for (const ClippedFacet& facet : task_.clipped_of(facets)) {
       polygons.push_back({scene_.facets[facet.facet].plane, task_.corners_of(facet)});
     }
-    return mesh_membership(scene_.geometry, scene_.geometry.exact_point(*inner_point_), polygons);
+    return mesh_membership(scene_.geometry, *inner_point_, polygons, task_.statistics);
   }
 
   Vertex inner_point(const Cell& cell) const {

@@ -71,8 +71,9 @@ class FacetCutter {
       const Sign there = signs_[k + 1 == corners.size() ? 0 : k + 1];
       if (here == Sign::Zero) points.push_back(corners.vertex(k));
       if (here != Sign::Zero && there == -here) {
-        points.push_back(
-            scene_.geometry.meet(own_plane(), other.plane.plane, corners.side_plane(k)));
+        points.push_back(scene_.geometry.meet(other.plane.plane, corners.side_plane(k), own_plane(),
+                                              corners.vertex(k),
+                                              corners.vertex(k + 1 == corners.size() ? 0 : k + 1)));
       }
     }
     if (points.size() < 2) return std::nullopt;
@@ -100,7 +101,8 @@ class FacetCutter {
     } else if (from != Sign::Negative && to != Sign::Negative) {
       halves.positive = std::move(segment);
     } else {
-      const Vertex middle = scene_.geometry.meet(own_plane(), segment.plane, plane);
+      const Vertex middle =
+          scene_.geometry.meet(own_plane(), segment.plane, plane, segment.from, segment.to);
       Segment first{segment.plane, segment.from, middle};
       Segment second{segment.plane, middle, segment.to};
       if (from == Sign::Positive) std::swap(first, second);

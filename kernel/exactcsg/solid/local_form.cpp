@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "exactcsg/solid/nearest_crossing.hpp"
 #include "exactcsg/solid/polygon.hpp"
 
 namespace exactcsg {
@@ -137,23 +136,6 @@ LocalPlace append_mesh_form(const Geometry& geometry, std::span<const FacetPolyg
     facet.corners.append_to(polygons.back().corners);
   }
   return Autopartition(geometry, nodes, statistics).partition(std::move(polygons));
-}
-
-Membership mesh_membership(const Geometry& geometry, const Point3& point,
-                           std::span<const FacetPolygon> facets) {
-  const auto corners_of = [&](std::size_t f) {
-    std::vector<Point3> corners;
-    for (const Corner corner : facets[f].corners) {
-      corners.push_back(geometry.exact_point(corner.vertex));
-    }
-    return corners;
-  };
-  const auto bounds_of = [&](std::size_t f) {
-    DoubleBox box = box_of(facets[f].corners.vertex(0));
-    for (const Corner corner : facets[f].corners) box = join(box, box_of(corner.vertex));
-    return box;
-  };
-  return nearest_crossing(point, facets.size(), bounds_of, corners_of);
 }
 
 }  // namespace exactcsg

@@ -60,10 +60,4 @@ LocalPlace append_convex_form(std::span<const FacetPolygon> facets, std::vector<
 LocalPlace append_mesh_form(const Geometry& geometry, std::span<const FacetPolygon> facets,
                             std::vector<LocalNode>& nodes, TierStatistics& statistics);
 
-// In or Out of a mesh for a point that lies on none of its facets, from the facets of a convex
-// region that holds the point: the nearest crossing of a segment decides; a segment that meets a
-// side or a corner is given up for another.
-csg::Membership mesh_membership(const Geometry& geometry, const Point3& point,
-                                std::span<const FacetPolygon> facets);
-
 }  // namespace exactcsg

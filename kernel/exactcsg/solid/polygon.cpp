@@ -30,7 +30,9 @@ PolygonCut::PolygonCut(const Geometry& geometry, const CornerView& polygon, Plan
     if (found == crossings_.size()) {
       throw Error(ErrorId::InternalError, {"a facet that is not convex", "a convex one"});
     }
-    crossings_[found++] = geometry.meet(supporting, polygon.side_plane(i), plane);
+    const std::size_t next = i + 1 == polygon.size() ? 0 : i + 1;
+    crossings_[found++] = geometry.meet(supporting, polygon.side_plane(i), plane, polygon.vertex(i),
+                                        polygon.vertex(next));
   }
 }
 
