@@ -43,7 +43,7 @@ TEST(Layers, EveryCodeFileOfTheRoomsIsInALayer) {
     const std::string room = file.begin()->string();
     if (!is_code(file) || room != "kernel") continue;
     EXPECT_TRUE(std::ranges::count(std::array{"support", "number", "skeleton", "csg", "gdt",
-                                              "domain", "measure", "solid"},
+                                              "planar", "domain", "measure", "solid"},
                                    layer_of(file)) == 1)
         << file << " is in the unknown layer '" << layer_of(file) << "'";
   }

@@ -13,9 +13,9 @@ namespace exactcsg::house {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> layers{"support", "number", "skeleton", "csg",
-                                                  "gdt",     "domain", "measure",  "solid",
-                                                  "io",      "verify", "cli"};
+constexpr std::array<std::string_view, 12> layers{"support", "number", "skeleton", "csg",
+                                                  "gdt",     "planar", "domain",   "measure",
+                                                  "solid",   "io",     "verify",   "cli"};
 
 std::optional<std::size_t> rank_of(std::string_view layer) {
   const auto found = std::find(layers.begin(), layers.end(), layer);

@@ -9,22 +9,14 @@
 #include <vector>
 
 #include "exactcsg/io/mesh/solid_of_mesh.hpp"
+#include "exactcsg/planar/figure.hpp"
 #include "exactcsg/solid/solid.hpp"
 
 namespace exactcsg::io {
 
-struct Point2 {
-  Rational x, y;
-  friend bool operator==(const Point2&, const Point2&) = default;
-};
-
-// A filled figure: closed paths under the even-odd rule (holes, crossings and coincident edges are
-// allowed; they mean what even-odd says). Orientation does not matter.
-struct PlanarFigure {
-  std::vector<std::vector<Point2>> paths;
-};
-
-using PlanarTree = csg::Tree<PlanarFigure, csg::BooleanOperator>;
+using exactcsg::PlanarFigure;
+using exactcsg::PlanarTree;
+using exactcsg::Point2;
 
 // x -> M x + t: {{M00, M01, t0}, {M10, M11, t1}}.
 struct AffineMap2 {
@@ -36,7 +28,7 @@ PlanarTree apply(const AffineMap2& map, const PlanarTree& tree);  // singular ma
 // two touching except at vertices of both; collinear vertices removed unless another part of the
 // outline touches there. [Exact]
 // THROWS Error(UnboundedSolid) if the set is unbounded (Full, say).
-// COST: O((n + k) log n) for n edges that cross k times.
+// COST: that of outline_of (exactcsg/planar/outline.hpp).
 PlanarFigure resolve(const PlanarTree& tree);
 
 // Convex, pairwise interior-disjoint polygons (counter-clockwise) that cover the figure;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "exactcsg/io/planar/membership_network.hpp"
+#include "planar/membership_network.hpp"
 
 #include <unordered_map>
 
 #include "exactcsg/csg/walk.hpp"
 
-namespace exactcsg::io {
+namespace exactcsg::test {
 
 MembershipNetwork::MembershipNetwork(const PlanarTree& tree) {
   using Cursor = PlanarTree::Cursor;
@@ -88,4 +88,4 @@ void MembershipNetwork::toggle(std::uint32_t figure) {
   }
 }
 
-}  // namespace exactcsg::io
+}  // namespace exactcsg::test

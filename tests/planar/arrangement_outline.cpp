@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "exactcsg/io/planar/outline.hpp"
+#include "planar/arrangement_outline.hpp"
 
 #include <CGAL/Arr_consolidated_curve_data_traits_2.h>
 #include <CGAL/Arr_extended_dcel.h>
@@ -11,9 +11,14 @@
 #include <utility>
 
 #include "exactcsg/io/planar/exact_kernel.hpp"
-#include "exactcsg/io/planar/membership_network.hpp"
+#include "planar/membership_network.hpp"
 
-namespace exactcsg::io {
+namespace exactcsg::test {
+
+using io::exact_point;
+using io::ExactKernel;
+using io::ExactPoint2;
+using io::point_of;
 
 namespace {
 
@@ -266,75 +271,9 @@ class Tracer {
   std::vector<std::uint32_t> position_;        // of a point in the path being split
 };
 
-Sign turn(const Point2& a, const Point2& b, const Point2& c) {
-  return sign_of(cmp((b.x - a.x) * (c.y - b.y), (b.y - a.y) * (c.x - b.x)));
-}
-
-Outline convex_outline(std::vector<Point2> polygon) {
-  Outline outline;
-  outline.points = std::move(polygon);
-  PlanarLoop loop(outline.points.size());
-  for (std::uint32_t i = 0; i < loop.size(); ++i) loop[i] = i;
-  outline.components.push_back({{std::move(loop)}, true});
-  return outline;
-}
-
 }  // namespace
 
-std::optional<std::vector<Point2>> strictly_convex(const std::vector<Point2>& path) {
-  std::vector<Point2> corners;
-  const auto straight_at_end = [&](const Point2& next) {
-    const std::size_t n = corners.size();
-    return corners.back() == next ||
-           (n >= 2 && turn(corners[n - 2], corners[n - 1], next) == Sign::Zero);
-  };
-  for (const Point2& p : path) {
-    while (!corners.empty() && straight_at_end(p)) corners.pop_back();
-    corners.push_back(p);
-  }
-  // The same where the path closes.
-  std::size_t first = 0;
-  const auto remaining = [&] { return corners.size() - first; };
-  for (bool changed = true; changed && remaining() >= 3;) {
-    changed = true;
-    if (straight_at_end(corners[first])) {
-      corners.pop_back();
-    } else if (turn(corners.back(), corners[first], corners[first + 1]) == Sign::Zero) {
-      ++first;
-    } else {
-      changed = false;
-    }
-  }
-  if (remaining() < 3) return std::nullopt;
-  corners.erase(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(first));
-
-  // All turns to one side, and once round: the direction of x changes exactly twice.
-  const std::size_t n = corners.size();
-  const Sign side = turn(corners[n - 1], corners[0], corners[1]);
-  const auto rightward = [&](std::size_t i) {
-    const Point2& a = corners[i % n];
-    const Point2& b = corners[(i + 1) % n];
-    return a.x == b.x ? a.y < b.y : a.x < b.x;
-  };
-  std::size_t changes = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (turn(corners[i], corners[(i + 1) % n], corners[(i + 2) % n]) != side) return std::nullopt;
-    if (rightward(i) != rightward(i + 1)) ++changes;
-  }
-  if (changes != 2) return std::nullopt;
-  if (side == Sign::Negative) std::reverse(corners.begin(), corners.end());
-  return corners;
-}
-
-Outline outline_of(const PlanarTree& tree) {
-  if (tree.is_primitive()) {
-    const PlanarFigure& figure = tree.primitive();
-    if (figure.paths.size() == 1) {
-      if (auto polygon = strictly_convex(figure.paths[0])) {
-        return convex_outline(std::move(*polygon));
-      }
-    }
-  }
+Outline arrangement_outline(const PlanarTree& tree) {
   MembershipNetwork network(tree);
   if (network.value()) throw Error(ErrorId::UnboundedSolid, {"an unbounded planar set", ""});
   Overlay cells;
@@ -343,18 +282,4 @@ Outline outline_of(const PlanarTree& tree) {
   return Tracer(cells, inside).trace();
 }
 
-Outline outline_of(const PlanarFigure& figure) { return outline_of(PlanarTree::primitive(figure)); }
-
-PlanarFigure resolve(const PlanarTree& tree) {
-  const Outline outline = outline_of(tree);
-  PlanarFigure figure;
-  for (const OutlineComponent& component : outline.components) {
-    for (const PlanarLoop& loop : component.loops) {
-      auto& path = figure.paths.emplace_back();
-      for (const std::uint32_t v : loop) path.push_back(outline.points[v]);
-    }
-  }
-  return figure;
-}
-
-}  // namespace exactcsg::io
+}  // namespace exactcsg::test

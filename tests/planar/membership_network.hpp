@@ -12,9 +12,9 @@
 #include <queue>
 #include <vector>
 
-#include "exactcsg/io/planar/planar.hpp"
+#include "exactcsg/planar/figure.hpp"
 
-namespace exactcsg::io {
+namespace exactcsg::test {
 
 class MembershipNetwork {
  public:
@@ -52,4 +52,4 @@ class MembershipNetwork {
   std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> pending_;
 };
 
-}  // namespace exactcsg::io
+}  // namespace exactcsg::test
