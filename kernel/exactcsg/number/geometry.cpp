@@ -105,6 +105,14 @@ void set_position(Vertex& v, const ApproximatePoint& position) {
 
 ApproximatePoint position_of(const Vertex& v) { return {v.x, v.y, v.z, v.error}; }
 
+double length_of(const ApproximatePoint& point) {
+  return std::fabs(point.x) + std::fabs(point.y) + std::fabs(point.z);
+}
+
+// Of a position's error, as a share of its distance from the origin: signs of what is built on it
+// will often take more than doubles.
+constexpr double poor = 0x1p-44;
+
 }  // namespace
 
 // The position of a meeting point, computed exactly and rounded.
@@ -133,10 +141,12 @@ Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r, const Vertex& from,
   const std::array<ApproximatePlane, 3> planes{approximate(v.planes[0]), approximate(v.planes[1]),
                                                approximate(v.planes[2])};
   std::optional<ApproximatePoint> position = approximate_meeting_point(planes);
-  if (!position) {
-    position = approximate_crossing(approximate(r), position_of(from), position_of(to));
-    if (position) {
-      for (const ApproximatePlane& plane : planes) snap(plane, *position);
+  if (!position || position->error > poor * length_of(*position)) {
+    std::optional<ApproximatePoint> crossing =
+        approximate_crossing(approximate(r), position_of(from), position_of(to));
+    if (crossing) {
+      for (const ApproximatePlane& plane : planes) snap(plane, *crossing);
+      if (!position || crossing->error < position->error) position = crossing;
     }
   }
   set_position(v, position ? *position : exactly_met(v));

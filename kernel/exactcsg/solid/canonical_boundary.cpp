@@ -113,8 +113,9 @@ struct SettledEdge {
   PlaneRef first;
   PlaneRef second;  // first < second
   VertexNumber from;
-  VertexNumber to;         // from < to
-  std::uint32_t polytope;  // the convex primitive, or none
+  VertexNumber to;  // from < to
+  std::uint32_t
+      primitive;  // of which it is a whole edge, if nothing else of it touches that; or none
   bool may_be_touched;
 };
 
@@ -201,7 +202,7 @@ class Merger {
         } else {
           for (std::size_t i = 0; i < corners.size(); ++i) add_edge(piece, number, corners, i);
         }
-        polytope_of_piece_.push_back(polytope_of(piece));
+        primitive_of_piece_.push_back(whole_primitive_of(piece));
         ++number;
       }
       first_meeting_point += buffer.meeting_points.size();
@@ -281,7 +282,7 @@ class Merger {
         }
       }
     }
-    polytope_of_piece_.reserve(count_pieces(buffers));
+    primitive_of_piece_.reserve(count_pieces(buffers));
     settled_faces_.reserve(settled_faces);
     settled_sides_.reserve(settled_sides);
     settled_edges_.reserve(settled_sides / 2);
@@ -320,7 +321,7 @@ class Merger {
       if (from > to) continue;
       const auto [first, second] = std::minmax(piece.plane.plane, side_plane);
       const bool isolated = settled_.is_isolated(first) || settled_.is_isolated(second);
-      settled_edges_.push_back({first, second, from, to, polytope_of(piece), !isolated});
+      settled_edges_.push_back({first, second, from, to, whole_primitive_of(piece), !isolated});
     }
     if (piece.corner_sense != piece.plane.sense) {
       // Corners and the sides between them, backwards from the same corner.
@@ -333,11 +334,12 @@ class Merger {
     settled_faces_.push_back(face);
   }
 
-  // The convex primitive of which the piece is a whole facet, or none.
-  std::uint32_t polytope_of(const BoundaryPiece& piece) const {
+  // The primitive of which the piece is a whole facet, or none. Edges of one primitive meet in
+  // vertices that end both of them, unless it is a mesh that meets itself.
+  std::uint32_t whole_primitive_of(const BoundaryPiece& piece) const {
     if (piece.share != facet_share::whole) return none;
     const PrimitiveIndex primitive = scene_.facets[piece.facet].primitive;
-    return scene_.primitives[primitive].convex ? primitive : none;
+    return scene_.primitives[primitive].meets_itself ? none : primitive;
   }
 
   // Most seams have the same two ends on both sides: they cancel without a look at their line.
@@ -583,7 +585,7 @@ class Merger {
     LineNumber line;  // lines_.size() + i: the settled edge i
     VertexNumber from;
     VertexNumber to;
-    std::uint32_t polytope;  // the convex primitive of one of whose edges it is a part, or none
+    std::uint32_t primitive;  // of one of whose edges it is a part, or none
   };
 
   // The parts of a line between neighbouring vertices that some segment covers, and settled edges;
@@ -594,11 +596,11 @@ class Merger {
       const auto first = static_cast<std::ptrdiff_t>(result.size());
       for_each_run(line, [&](const Run& run) {
         const auto [low, high] = std::minmax(run.from, run.to);
-        result.push_back({line, low, high, run.polytope});
+        result.push_back({line, low, high, run.primitive});
       });
-      // Any of the polytopes will do; `none` sorts last.
+      // Any of the primitives will do; `none` sorts last.
       const auto key = [](const Span& span) {
-        return std::tuple(span.from, span.to, span.polytope);
+        return std::tuple(span.from, span.to, span.primitive);
       };
       std::ranges::sort(result.begin() + first, result.end(), {}, key);
       const auto same_ends = [](const Span& a, const Span& b) {
@@ -610,7 +612,7 @@ class Merger {
       const SettledEdge& edge = settled_edges_[i];
       if (!edge.may_be_touched) continue;
       result.push_back(
-          {static_cast<LineNumber>(lines_.size() + i), edge.from, edge.to, edge.polytope});
+          {static_cast<LineNumber>(lines_.size() + i), edge.from, edge.to, edge.primitive});
     }
     return result;
   }
@@ -630,7 +632,7 @@ class Merger {
     const Segment& owner;
     VertexNumber from;
     VertexNumber to;
-    std::uint32_t polytope;  // of all its segments, or none
+    std::uint32_t primitive;  // of all its segments, or none
   };
 
   // visit(run)
@@ -656,9 +658,9 @@ class Merger {
     std::uint32_t start = none;  // rank where the present run began
     bool forward = true;
     const Segment* owner = nullptr;
-    std::uint32_t polytope = none;
+    std::uint32_t primitive = none;
     for (const Segment& segment : segments) {
-      const std::uint32_t polytope_here = polytope_of_piece_[segment.piece];
+      const std::uint32_t primitive_here = primitive_of_piece_[segment.piece];
       const auto [low, high] = std::minmax(rank_[segment.from], rank_[segment.to]);
       const bool goes_forward = rank_[segment.from] < rank_[segment.to];
       if (is_vertex_[stations[low]]) {
@@ -666,19 +668,19 @@ class Merger {
         start = low;
         forward = goes_forward;
         owner = &segment;
-        polytope = polytope_here;
+        primitive = primitive_here;
       }
-      if (polytope != polytope_here) polytope = none;
+      if (primitive != primitive_here) primitive = none;
       if (start == none || forward != goes_forward)
         broken("an edge that ends where there is no vertex");
       for (std::uint32_t r = low + 1; r <= high; ++r) {
         if (!is_vertex_[stations[r]]) continue;
         const VertexNumber a = stations[start];
         const VertexNumber b = stations[r];
-        visit(Run{*owner, forward ? a : b, forward ? b : a, polytope});
+        visit(Run{*owner, forward ? a : b, forward ? b : a, primitive});
         start = r;
         owner = &segment;
-        polytope = polytope_here;
+        primitive = primitive_here;
       }
       // Ends in a vertex: the run is over unless the next segment goes on from here.
       if (start == high) start = none;
@@ -686,13 +688,13 @@ class Merger {
     if (start != none) broken("an edge that ends where there is no vertex");
   }
 
-  // Edges that only touch: a vertex on another edge, or two edges that cross. Edges of one convex
-  // polytope meet at vertices that end both of them.
+  // Edges that only touch: a vertex on another edge, or two edges that cross. Edges of one
+  // primitive need not be looked at.
   void touch_edges() {
     std::vector<Span> all = spans();
     const std::size_t primitives = scene_.primitives.size();
     const auto group_of = [primitives](const Span& span) {
-      return std::min<std::size_t>(span.polytope, primitives);
+      return std::min<std::size_t>(span.primitive, primitives);
     };
     sort_in_buckets(all, primitives + 1, group_of, [](const Span& a, const Span& b) {
       return std::tie(a.line, a.from, a.to) < std::tie(b.line, b.from, b.to);
@@ -703,7 +705,7 @@ class Merger {
     for (std::uint32_t i = 0; i < all.size(); ++i) {
       const Span& span = all[i];
       boxes.push_back(join(box_of(vertices_[span.from]), box_of(vertices_[span.to])));
-      if (i == 0 || span.polytope == none || span.polytope != all[i - 1].polytope) {
+      if (i == 0 || span.primitive == none || span.primitive != all[i - 1].primitive) {
         group_begins.push_back(i);
       }
     }
@@ -1000,7 +1002,7 @@ class Merger {
   std::vector<SettledSide> settled_sides_;
   std::map<std::array<VertexNumber, 2>, std::vector<VertexNumber>> cuts_;  // of settled edges
   std::map<LineNumber, std::vector<VertexNumber>> touching_;  // where other edges touch a line
-  std::vector<std::uint32_t> polytope_of_piece_;
+  std::vector<std::uint32_t> primitive_of_piece_;
   std::vector<Vertex> vertices_;
   DisjointSets faces_;
   std::vector<LineSample> lines_;

@@ -61,12 +61,12 @@ void CellSolver::emit_primitive(const CellTask& cell, PieceCollector& result) co
     const int sense = inside == Membership::In ? plane.sense : -plane.sense;
     return OrientedPlaneRef{plane.plane, static_cast<signed char>(sense)};
   };
-  const bool convex = scene_.primitives[facets.primitive].convex;
+  const bool meets_itself = scene_.primitives[facets.primitive].meets_itself;
   for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
     const FacetIndex facet = cell.whole_facet(scene_, facets, i);
     const OrientedPlaneRef plane = scene_.facets[facet].plane;
     result.add(outward(plane), plane.sense, facet, facet_share::whole, {},
-               convex && is_inside(cell.cell, facet));
+               !meets_itself && is_inside(cell.cell, facet));
   }
   for (const ClippedFacet& facet : cell.clipped_of(facets)) {
     const OrientedPlaneRef plane = scene_.facets[facet.facet].plane;

@@ -98,11 +98,32 @@ struct Mirror {
   bool turns_inside_out() const { return (coordinates[0] != coordinates[1]) != coordinates[2]; }
 };
 
+// Rounding to nearest is monotone: coordinates are compared exactly only where their doubles are
+// equal. REQUIRES boundary.approximate
+bool vertices_ascend(const Boundary& boundary) {
+  const auto descend = [&](std::size_t i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double near = boundary.approximate[i][axis];
+      const double next_near = boundary.approximate[i + 1][axis];
+      if (near != next_near) return near > next_near;
+      const Rational& here = coordinate(boundary.vertices[i], axis);
+      const Rational& next = coordinate(boundary.vertices[i + 1], axis);
+      // Equal coordinates, which are many, are found equal without products.
+      if (here != next) return here > next;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i + 1 < boundary.vertices.size(); ++i) {
+    if (descend(i)) return false;
+  }
+  return true;
+}
+
 // The images of the vertices, as indices, or nullopt if one of them is no vertex.
 std::optional<std::vector<std::uint32_t>> image_of_vertices(const Boundary& boundary,
                                                             const Mirror& mirror) {
   if (boundary.approximate.size() != boundary.vertices.size()) return std::nullopt;
-  if (!std::is_sorted(boundary.vertices.begin(), boundary.vertices.end())) return std::nullopt;
+  if (!vertices_ascend(boundary)) return std::nullopt;
   std::vector<std::uint32_t> image;
   image.reserve(boundary.vertices.size());
   for (const Point3& vertex : boundary.vertices) {

@@ -71,6 +71,12 @@ Surface checked(Polyhedron given) {
   return surface;
 }
 
+Scene scene_of(const Surface& surface) {
+  Scene scene = make_scene(Solid::primitive(Primitive{PolyhedralMesh{surface.polyhedron}}));
+  scene.primitives.front().meets_itself = true;
+  return scene;
+}
+
 class Filling {
  public:
   Filling(const Surface& surface, const Scene& scene, FillRule rule, const EvaluateOptions& options)
@@ -182,7 +188,7 @@ std::string_view name_of(FillRule rule) {
 Boundary filled_boundary(Polyhedron polyhedron, FillRule rule, const EvaluateOptions& options) {
   if (options.progress != nullptr) options.progress->begin("prepare", 0);
   const Surface surface = checked(std::move(polyhedron));
-  const Scene scene = make_scene(Solid::primitive(Primitive{PolyhedralMesh{surface.polyhedron}}));
+  const Scene scene = scene_of(surface);
   if (options.progress != nullptr) options.progress->begin("fill", scene.facets.size());
   TierStatistics tiers;
   std::vector<PieceBuffer> buffers = Filling(surface, scene, rule, options).pieces(tiers);
@@ -197,7 +203,7 @@ Boundary filled_boundary(Polyhedron polyhedron, FillRule rule, const EvaluateOpt
 
 bool is_boundary_of_solid(Polyhedron polyhedron, const EvaluateOptions& options) {
   const Surface surface = checked(std::move(polyhedron));
-  const Scene scene = make_scene(Solid::primitive(Primitive{PolyhedralMesh{surface.polyhedron}}));
+  const Scene scene = scene_of(surface);
   return Filling(surface, scene, FillRule::Positive, options).is_simple();
 }
 

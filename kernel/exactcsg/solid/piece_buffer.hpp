@@ -30,7 +30,8 @@ struct BoundaryPiece {
   std::uint32_t corner_count = 0;
   FacetIndex facet = 0;     // of the scene, that this is a part of
   std::uint64_t share = 0;  // of that facet
-  // A whole facet of a convex primitive, inside a cell in which nothing else is boundary.
+  // A whole facet of a primitive that does not meet itself, inside a cell in which nothing else is
+  // boundary.
   bool isolated = false;
 };
 

@@ -135,6 +135,8 @@ struct ScenePrimitive {
   bool convex = true;  // half-spaces and convex polytopes; otherwise a closed mesh
   FacetIndex first_facet = 0;
   std::uint32_t facet_count = 0;
+  // Facets that meet do so in common vertices and common edges, unless it is said that they do not.
+  bool meets_itself = false;
 };
 
 struct Range {

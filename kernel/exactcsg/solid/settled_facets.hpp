@@ -7,8 +7,8 @@
 // A facet is settled if it came out as boundary whole, lies in the plane of no other facet of the
 // scene (in either sense), and surely turns at every corner. No other piece of boundary lies in its
 // plane: its sides bound a face as they are, and between two settled facets a side is an edge, but
-// for vertices of other edges that touch it. Nothing touches a facet of a convex primitive that
-// lies in an open cell in which no other primitive has boundary: it is isolated.
+// for vertices of other edges that touch it. Nothing touches a facet that lies in an open
+// cell in which no other primitive has boundary: it is isolated.
 
 #include <cstdint>
 #include <vector>
