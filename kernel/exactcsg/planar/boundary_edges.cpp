@@ -80,6 +80,7 @@ class Joiner {
     if (open_ends.size() != starts.size()) fail();
     if (open_ends.empty()) return;
     std::vector<std::uint32_t> open_starts;
+    open_starts.reserve(starts.size());
     for (const auto& [crossing, piece] : starts) open_starts.push_back(piece);
     sort(open_ends, &Piece::end);
     sort(open_starts, &Piece::start);
