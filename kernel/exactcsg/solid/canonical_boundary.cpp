@@ -897,6 +897,7 @@ class Merger {
     stations_ = {};
     rank_ = {};
     lines_ = {};
+    primitive_of_piece_ = {};
     return edges;
   }
 
@@ -906,6 +907,7 @@ class Merger {
     std::vector<SingleFace> singles = single_faces(edges);
     Boundary boundary;
     const std::vector<VertexNumber> renumbered = set_vertices(boundary);
+    vertices_ = {};
     check();
     boundary.edges.reserve(count_on_lines + settled_edges_.size());
     const auto add_edge_between = [&](VertexNumber from, VertexNumber to) {
@@ -1018,6 +1020,15 @@ class Merger {
 };
 
 }  // namespace
+
+Boundary merge_pieces(Scene&& scene, std::vector<PieceBuffer> buffers, unsigned threads,
+                      Progress* progress) {
+  Merger merger(scene, buffers, threads, progress);
+  buffers = {};
+  scene.facets = {};
+  scene.corners = {};
+  return merger.merge();
+}
 
 Boundary merge_pieces(const Scene& scene, std::vector<PieceBuffer> buffers, unsigned threads,
                       Progress* progress) {

@@ -27,5 +27,8 @@ namespace exactcsg {
 // itself counted.
 Boundary merge_pieces(const Scene& scene, std::vector<PieceBuffer> buffers, unsigned threads,
                       Progress* progress);
+// The same; the scene's facets are given up, as their memory is wanted.
+Boundary merge_pieces(Scene&& scene, std::vector<PieceBuffer> buffers, unsigned threads,
+                      Progress* progress);
 
 }  // namespace exactcsg

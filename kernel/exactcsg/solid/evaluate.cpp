@@ -86,11 +86,13 @@ Boundary evaluate(const Solid& solid, const EvaluateOptions& options) {
   restore_whole_facets(scene, result.buffers);
   if (options.progress != nullptr) options.progress->begin("merge", 0);
   scene.bounds = {};
+  const std::size_t primitives = scene.primitives.size();
+  const std::size_t facets = scene.facets.size();
   Boundary boundary =
-      merge_pieces(scene, std::move(result.buffers), options.threads, options.progress);
+      merge_pieces(std::move(scene), std::move(result.buffers), options.threads, options.progress);
   boundary.statistics.tiers += result.tiers;
-  boundary.statistics.primitives = scene.primitives.size();
-  boundary.statistics.facets = scene.facets.size();
+  boundary.statistics.primitives = primitives;
+  boundary.statistics.facets = facets;
   boundary.statistics.cells = result.cells;
   boundary.statistics.evaluated_cells = result.evaluated_cells;
   return boundary;
