@@ -74,6 +74,9 @@ Answer print_info(Context& context, const std::string& file) {
   row("depth of the tree", counts.depth);
   row("rounding of sines",
       fmt::format("at most {} per coordinate", to_decimal(model.rounding_bound, 3)));
+  for (const io::FontFile& font : model.fonts) {
+    row("font", fmt::format("{}: {}, {}", font.asked, font.name, font.file));
+  }
   row("warnings", model.warnings.size());
   context.print(text);
   return Answer::Yes;

@@ -385,6 +385,17 @@ TEST(Info, CountsWhatTheFileHolds) {
       << finished.out;
 }
 
+TEST(Info, NamesTheFontsOfText) {
+  const Folder folder;
+  const Finished finished = run_command(
+      {"info", folder.write("word.csg", "linear_extrude(height = 1) { text(text = \"a\"); }\n")});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_TRUE(std::regex_search(
+      finished.out, std::regex("font +Liberation Sans:style=Regular: Liberation Sans Regular, "
+                               "Version .*LiberationSans-Regular.ttf\n")))
+      << finished.out;
+}
+
 TEST(Usage, WrongCommandLinesExitWith2) {
   const Folder folder;
   const std::string file = folder.write("cube.csg", "cube(size = 1);\n");

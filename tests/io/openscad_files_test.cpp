@@ -110,7 +110,7 @@ TEST_F(OpenscadFiles, ErrorsInSourcesAreShown) {
             ErrorId::OracleFailed);
   EXPECT_EQ(refusal(folder_.write("syntax.scad", "cube(")), ErrorId::OracleFailed);
   EXPECT_EQ(refusal(folder_.write("-o.scad", "cube(")), ErrorId::OracleFailed);
-  EXPECT_EQ(refusal(folder_.write("node.scad", "linear_extrude(1) text(\"a\");")),
+  EXPECT_EQ(refusal(folder_.write("node.scad", "linear_extrude(1) import(\"a.svg\");")),
             ErrorId::UnsupportedNode);
 }
 

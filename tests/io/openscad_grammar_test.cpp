@@ -188,7 +188,7 @@ TEST(OpenscadNodeKind, FindsEveryNodeAndSuggestsNearOnes) {
   EXPECT_EQ(find_node_kind("cube"), NodeKind::Cube);
   EXPECT_EQ(find_node_kind("union"), NodeKind::Union);
   EXPECT_EQ(find_node_kind("multmatrix"), NodeKind::Multmatrix);
-  for (const char* name : {"text", "fill", "roof"}) {
+  for (const char* name : {"fill", "roof"}) {
     EXPECT_EQ(find_node_kind(name), NodeKind::Unsupported);
   }
   EXPECT_EQ(find_node_kind("cubes"), std::nullopt);

@@ -128,6 +128,45 @@ TEST(PlanarResolve, ACheckerboardOfTouchingSquares) {
   EXPECT_EQ(area(csg::unite(board, other)), 64);
 }
 
+Path backwards(Path path) {
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+TEST(PlanarResolveWinding, CountsTheTurnsOfAllPaths) {
+  // Squares of area 4 that share one of area 1.
+  const Path a = rectangle(0, 0, 2, 2);
+  const Path b = rectangle(1, 1, 3, 3);
+  EXPECT_EQ(area(resolve_winding({a, b}).paths), 7);
+  EXPECT_EQ(area(resolve_winding({backwards(a), backwards(b)}).paths), 7);
+  // The common square is gone round once in either sense.
+  EXPECT_EQ(area(resolve_winding({a, backwards(b)}).paths), 6);
+  EXPECT_EQ(area(resolve_winding({a, b, a}).paths), 7);
+  EXPECT_TRUE(resolve_winding({a, backwards(a)}).paths.empty());
+  EXPECT_EQ(area(resolve_winding({a, backwards(a), b}).paths), 4);
+  EXPECT_TRUE(resolve_winding({}).paths.empty());
+}
+
+TEST(PlanarResolveWinding, AgreesWithEvenOddOnPathsThatDoNotMeet) {
+  // An annulus with an island, each path against the one round it.
+  const std::vector<Path> rings{rectangle(0, 0, 10, 10), backwards(rectangle(1, 1, 9, 9)),
+                                rectangle(2, 2, 8, 8)};
+  EXPECT_EQ(area(resolve_winding(rings).paths), 100 - 64 + 36);
+  EXPECT_EQ(resolve_winding(rings).paths.size(), resolve(figure(rings)).paths.size());
+  // All in one sense there is no hole.
+  EXPECT_EQ(area(resolve_winding({rings[0], backwards(rings[1]), rings[2]}).paths), 100);
+}
+
+TEST(PlanarResolveWinding, FillsAPathThatCrossesItself) {
+  // Of the pentagram no middle is left out. A bow tie is gone round in both senses.
+  const Path pentagram{{0, 30}, {18, -24}, {-29, 9}, {29, 9}, {-18, -24}};
+  EXPECT_EQ(resolve_winding({pentagram}).paths.size(), 1U);
+  EXPECT_EQ(resolve_winding({backwards(pentagram)}).paths.size(), 1U);
+  EXPECT_EQ(area(resolve_winding({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}).paths), 2);
+  // A spike has no area.
+  EXPECT_EQ(area(resolve_winding({{{0, 0}, {2, 0}, {2, 2}, {2, 5}, {2, 2}, {0, 2}}}).paths), 4);
+}
+
 TEST(PlanarResolve, UnboundedSetsAreRefused) {
   try {
     resolve(csg::complement(box(0, 0, 1, 1)));

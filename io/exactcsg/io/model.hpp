@@ -22,6 +22,13 @@ struct Warning {
   SourcePosition position;
 };
 
+// A font that text of a model is drawn with: no part of the model, yet the solid depends on it.
+struct FontFile {
+  std::string asked;  // as the model names it, or OpenSCAD's default
+  std::string name;   // family, style and version as the font has them
+  std::string file;
+};
+
 struct Model {
   Solid solid;
   std::string name;  // the file's name as given
@@ -29,6 +36,7 @@ struct Model {
   std::size_t primitives = 0;
   // What an external front end printed on stderr while making the model (.scad only).
   std::string front_end_messages;
+  std::vector<FontFile> fonts;
   // Every coordinate of the model differs by at most this from the one meant by irrational
   // formulas (sines, cosines, radii) of the source: the documented rounding of the tessellation.
   Rational rounding_bound{0};

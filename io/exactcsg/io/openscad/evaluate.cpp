@@ -204,6 +204,7 @@ class ExactBuilder {
     }
     model.primitives = primitives_;
     model.rounding_bound = std::move(rounding_);
+    model.fonts = texts_.fonts();
     return model;
   }
 
@@ -278,7 +279,7 @@ class ExactBuilder {
   Outcome leaf_of(NodeKind kind, std::uint32_t node, const Placement& placement) {
     Outcome result;
     using enum NodeKind;
-    if (kind == Square || kind == Circle || kind == Polygon) {
+    if (is_planar_leaf(kind)) {
       result.dimension = 2;
       result.planar = planar_leaf(kind, node, placement);
       return result;
@@ -736,24 +737,49 @@ class ExactBuilder {
   }
 
   PlanarTree planar_leaf(NodeKind kind, std::uint32_t node, const Placement& placement) {
-    PlanarFigure figure;
+    // Only text has several.
+    std::vector<PlanarFigure> figures(1);
     if (kind == NodeKind::Square) {
-      figure = square(node);
+      figures[0] = square(node);
     } else if (kind == NodeKind::Circle) {
-      figure = circle(node, placement);
+      figures[0] = circle(node, placement);
+    } else if (kind == NodeKind::Polygon) {
+      figures[0] = read_polygon(tree_, node, warnings_);
     } else {
-      figure = read_polygon(tree_, node, warnings_);
+      figures = letters(node);
     }
-    if (figure.paths.empty()) return PlanarTree::empty();
+    std::erase_if(figures, [](const PlanarFigure& figure) { return figure.paths.empty(); });
+    if (figures.empty()) return PlanarTree::empty();
     if (is_singular(placement.plane)) {
       warn_of_singular_plane(node);
       return PlanarTree::empty();
     }
-    for (auto& path : figure.paths) {
-      count_vertices(path.size());
-      for (Point2& p : path) p = openscad::apply(placement.plane, p);
+    std::vector<PlanarTree> trees;
+    for (PlanarFigure& figure : figures) {
+      for (auto& path : figure.paths) {
+        count_vertices(path.size());
+        for (Point2& p : path) p = openscad::apply(placement.plane, p);
+      }
+      trees.push_back(figure_tree(std::move(figure)));
     }
-    return figure_tree(std::move(figure));
+    if (trees.size() == 1) return trees.front();
+    return PlanarTree::compose(BooleanOperator::Union, std::move(trees));
+  }
+
+  std::vector<PlanarFigure> letters(std::uint32_t node) {
+    const TextOutline outline = texts_.outline(read_text(tree_, node, warnings_));
+    for (const std::string& remark : outline.remarks) warnings_.add(remark, position(node));
+    std::vector<PlanarFigure> figures;
+    for (const LetterPaths& letter : outline.letters) {
+      if (progress_ != nullptr) progress_->check();
+      std::vector<std::vector<Point2>> paths;
+      for (const auto& path : letter) {
+        auto& exact = paths.emplace_back();
+        for (const auto& [x, y] : path) exact.push_back({rational_of(x), rational_of(y)});
+      }
+      figures.push_back(resolve_winding(paths));
+    }
+    return figures;
   }
 
   PlanarFigure square(std::uint32_t node) {
@@ -798,6 +824,7 @@ class ExactBuilder {
   std::optional<FillRule> fill_;
   Progress* progress_;
   ShapeCache shapes_;
+  TextOutlines texts_;
   std::size_t primitives_ = 0;
   std::size_t vertices_ = 0;
   Rational rounding_{0};  // of the node at work

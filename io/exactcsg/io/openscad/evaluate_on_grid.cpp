@@ -126,6 +126,7 @@ class GridBuilder {
       warnings_.add("the model is empty (OpenSCAD refuses to export it)", position(0));
     }
     model.primitives = primitives_;
+    model.fonts = texts_.fonts();
     // Cut by less than a cell, moved to a neighbour's cell by less than another.
     model.rounding_bound = Rational(1, Integer(1) << 19U);
     return model;
@@ -134,7 +135,7 @@ class GridBuilder {
   Outcome leaf(NodeKind kind, std::uint32_t node, const Context&) {
     Outcome result;
     using enum NodeKind;
-    if (kind == Square || kind == Circle || kind == Polygon) {
+    if (is_planar_leaf(kind)) {
       result.dimension = 2;
       result.planar = planar_leaf(kind, node);
       return result;
@@ -622,6 +623,7 @@ class GridBuilder {
   }
 
   DoubleFigure planar_leaf(NodeKind kind, std::uint32_t node) {
+    if (kind == NodeKind::Text) return text(node);
     DoubleFigure figure;
     if (kind == NodeKind::Polygon) {
       PlanarFigure given = read_polygon(tree_, node, warnings_);
@@ -654,6 +656,18 @@ class GridBuilder {
     }
     figure.outlines.push_back(std::move(outline));
     return figure;
+  }
+
+  // OpenSCAD unites the letters even if there is only one.
+  DoubleFigure text(std::uint32_t node) {
+    const TextOutline outline = texts_.outline(read_text(tree_, node, warnings_));
+    for (const std::string& remark : outline.remarks) warnings_.add(remark, position(node));
+    std::vector<DoubleFigure> letters;
+    for (const LetterPaths& paths : outline.letters) {
+      DoubleFigure& letter = letters.emplace_back();
+      for (const auto& path : paths) letter.outlines.push_back({path});
+    }
+    return clip(BooleanOperator::Union, letters);
   }
 
   // The planar children of an extrusion, united. nullopt: there are none at all.
@@ -866,6 +880,7 @@ class GridBuilder {
   const SyntaxTree& tree_;
   Warnings& warnings_;
   NamedFiles files_;
+  TextOutlines texts_;
   std::size_t primitives_ = 0;
   std::size_t vertices_ = 0;
 };

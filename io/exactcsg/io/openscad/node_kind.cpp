@@ -38,7 +38,7 @@ constexpr auto node_kinds = std::to_array<std::pair<std::string_view, NodeKind>>
     {"sphere", Sphere},
     {"square", Square},
     {"surface", Surface},
-    {"text", Unsupported},
+    {"text", Text},
     {"union", Union},
 });
 

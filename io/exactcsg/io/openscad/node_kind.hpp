@@ -32,13 +32,19 @@ enum class NodeKind : std::uint8_t {
   Square,
   Circle,
   Polygon,
+  Text,
   Unsupported,  // known to OpenSCAD, refused by name here (docs/limits.md)
 };
+
+constexpr bool is_planar_leaf(NodeKind kind) {
+  using enum NodeKind;
+  return kind == Square || kind == Circle || kind == Polygon || kind == Text;
+}
 
 constexpr bool is_leaf(NodeKind kind) {
   using enum NodeKind;
   return kind == Cube || kind == Sphere || kind == Cylinder || kind == Polyhedron ||
-         kind == Import || kind == Surface || kind == Square || kind == Circle || kind == Polygon;
+         kind == Import || kind == Surface || is_planar_leaf(kind);
 }
 
 // Their children are in a frame of their own: what they make does not commute with matrices.

@@ -2,6 +2,7 @@
 #include "exactcsg/io/openscad/shapes.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -101,25 +102,84 @@ std::array<Rational, N> read_point(const Arguments& arguments, const Value& valu
   return point;
 }
 
-// The text between quotes with its escapes resolved; an unknown escape keeps its backslash.
+// The number that exactly `count` hexadecimal digits at the beginning of a text stand for.
+std::optional<std::uint32_t> hexadecimal(std::string_view text, std::size_t count) {
+  std::uint32_t number = 0;
+  const std::string_view digits = text.substr(0, count);
+  const auto [end, failure] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+  if (failure != std::errc() || end != digits.data() + count) return std::nullopt;
+  return number;
+}
+
+// What is no number of a character stands for the one that says so; number 0 is nothing.
+void append_utf8(std::string& text, std::uint32_t character) {
+  if (character > 0x10ffff || (character >= 0xd800 && character < 0xe000)) character = 0xfffd;
+  if (character == 0) return;
+  if (character < 0x80) {
+    text += static_cast<char>(character);
+    return;
+  }
+  const unsigned following = character < 0x800 ? 1 : character < 0x10000 ? 2 : 3;
+  constexpr std::array<std::uint32_t, 4> lead{0, 0xc0, 0xe0, 0xf0};
+  text += static_cast<char>(lead[following] | (character >> (6 * following)));
+  for (unsigned i = following; i-- > 0;) {
+    text += static_cast<char>(0x80U | ((character >> (6 * i)) & 0x3fU));
+  }
+}
+
+// The text between quotes as OpenSCAD reads it: an unknown escape loses its backslash, and line
+// ends that are not escaped are nothing.
 std::string unescaped(std::string_view quoted) {
   std::string text;
   for (std::size_t i = 0; i < quoted.size(); ++i) {
+    if (quoted[i] == '\n') continue;
     if (quoted[i] != '\\' || i + 1 == quoted.size()) {
       text += quoted[i];
       continue;
     }
+    const std::string_view rest = quoted.substr(i + 1);
     constexpr std::string_view escapes = "tnr\"\\";
     constexpr std::string_view meanings = "\t\n\r\"\\";
-    const auto escape = escapes.find(quoted[i + 1]);
-    if (escape == std::string_view::npos) {
-      text += quoted[i];
-    } else {
+    const auto escape = escapes.find(rest[0]);
+    const std::string_view digits = rest.substr(1);
+    if (escape != std::string_view::npos) {
       text += meanings[escape];
       ++i;
+    } else if (const auto byte = hexadecimal(digits, 2); rest[0] == 'x' && byte && *byte < 0x80) {
+      text += *byte == 0 ? ' ' : static_cast<char>(*byte);
+      i += 3;
+    } else if (const auto four = hexadecimal(digits, 4); rest[0] == 'u' && four) {
+      append_utf8(text, *four);
+      i += 5;
+    } else if (const auto six = hexadecimal(digits, 6); rest[0] == 'U' && six) {
+      append_utf8(text, *six);
+      i += 7;
     }
   }
   return text;
+}
+
+// Text of an argument that may be missing.
+std::string text_or(const Arguments& arguments, std::string_view name, std::string_view fallback) {
+  const Value* const value = arguments.find(name);
+  if (value == nullptr) return std::string(fallback);
+  if (value->kind != Value::Kind::Text) arguments.fail(*value, "a text in quotes");
+  return unescaped(value->text);
+}
+
+// As OpenSCAD: a word that is none of these counts as the first of them.
+template <class Alignment, std::size_t N>
+Alignment alignment_of(const Arguments& arguments, std::string_view name,
+                       const std::array<std::pair<std::string_view, Alignment>, N>& words) {
+  const std::string given = text_or(arguments, name, words[0].first);
+  for (const auto& [word, alignment] : words) {
+    if (given == word) return alignment;
+  }
+  arguments.warnings().add(std::string(name) + " = '" + given + "' is not known: '" +
+                               std::string(words[0].first) + "' counts, as in OpenSCAD",
+                           arguments.position(*arguments.find(name)));
+  return words[0].second;
 }
 
 FileShape file_of(const Arguments& arguments) {
@@ -216,6 +276,31 @@ PlanarFigure read_polygon(const SyntaxTree& tree, std::uint32_t node, Warnings& 
     for (const std::uint32_t index : indices) path.push_back(vertices[index]);
   }
   return figure;
+}
+
+TextShape read_text(const SyntaxTree& tree, std::uint32_t node, Warnings& warnings) {
+  static constexpr std::string_view names[] = {"text",    "size",     "font",   "direction",
+                                               "spacing", "language", "script", "halign",
+                                               "valign",  "$fn",      "$fa",    "$fs"};
+  const Arguments arguments(tree, node, names, 3, warnings);
+  TextShape shape;
+  shape.text = text_or(arguments, "text", "");
+  if (const auto size = arguments.number("size")) shape.size = nearest_double(*size);
+  if (const auto spacing = arguments.number("spacing")) shape.spacing = nearest_double(*spacing);
+  shape.font = text_or(arguments, "font", "");
+  shape.direction = text_or(arguments, "direction", "");
+  shape.language = text_or(arguments, "language", shape.language);
+  shape.script = text_or(arguments, "script", "");
+  using enum HorizontalAlignment;
+  shape.horizontal = alignment_of<HorizontalAlignment, 3>(
+      arguments, "halign", {{{"left", Left}, {"center", Center}, {"right", Right}}});
+  shape.vertical = alignment_of<VerticalAlignment, 4>(arguments, "valign",
+                                                      {{{"baseline", VerticalAlignment::Baseline},
+                                                        {"bottom", VerticalAlignment::Bottom},
+                                                        {"center", VerticalAlignment::Center},
+                                                        {"top", VerticalAlignment::Top}}});
+  shape.fineness = read_fineness(arguments);
+  return shape;
 }
 
 LinearExtrudeShape read_linear_extrude(const SyntaxTree& tree, std::uint32_t node,

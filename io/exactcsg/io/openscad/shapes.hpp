@@ -13,6 +13,7 @@
 #include "exactcsg/io/openscad/arguments.hpp"
 #include "exactcsg/io/openscad/polyhedron.hpp"
 #include "exactcsg/io/openscad/tessellation.hpp"
+#include "exactcsg/io/openscad/text_outline.hpp"
 #include "exactcsg/io/planar/offset.hpp"
 #include "exactcsg/io/planar/planar.hpp"
 #include "exactcsg/number/point.hpp"
@@ -82,6 +83,7 @@ FacedPoints read_polyhedron(const SyntaxTree&, std::uint32_t node, Warnings&);
 SquareShape read_square(const SyntaxTree&, std::uint32_t node, Warnings&);
 CircleShape read_circle(const SyntaxTree&, std::uint32_t node, Warnings&);
 PlanarFigure read_polygon(const SyntaxTree&, std::uint32_t node, Warnings&);
+TextShape read_text(const SyntaxTree&, std::uint32_t node, Warnings&);
 LinearExtrudeShape read_linear_extrude(const SyntaxTree&, std::uint32_t node, Warnings&);
 RotateExtrudeShape read_rotate_extrude(const SyntaxTree&, std::uint32_t node, Warnings&);
 OffsetShape read_offset(const SyntaxTree&, std::uint32_t node, Warnings&);

@@ -31,6 +31,11 @@ PlanarTree apply(const AffineMap2& map, const PlanarTree& tree);  // singular ma
 // COST: that of outline_of (exactcsg/planar/outline.hpp).
 PlanarFigure resolve(const PlanarTree& tree);
 
+// The same of the set that closed paths with a direction wind round: where their winding number is
+// not 0. Counter-clockwise counts 1; parts of a path where it turns back on itself count nothing.
+// [Exact] COST: as resolve.
+PlanarFigure resolve_winding(const std::vector<std::vector<Point2>>& paths);
+
 // Convex, pairwise interior-disjoint polygons (counter-clockwise) that cover the figure;
 // conforming: their union's boundary vertices are the vertices of resolve(figure), and no other
 // vertex is used. [Exact]
