@@ -39,6 +39,7 @@ std::vector<EvaluationTask> CellSolver::divide(EvaluationTask& task) const {
 CellSolver::Solution CellSolver::solve(const CellTask& cell, TierStatistics& statistics) const {
   if (cell.facet_count == 0) return {};
   Worker& worker = workers_.local();
+  worker.collector.discard();
   const bool classified = !decomposition_.is_one_primitive(cell);
   if (classified) {
     decomposition_.collect_facets(cell, worker.facets);

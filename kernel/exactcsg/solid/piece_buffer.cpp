@@ -74,6 +74,11 @@ void PieceCollector::take_back_to(const Mark& mark) {
 
 PieceBuffer PieceCollector::take() {
   PieceBuffer result = buffer_;  // copies have no memory to spare
+  discard();
+  return result;
+}
+
+void PieceCollector::discard() {
   buffer_.pieces.clear();
   buffer_.corners.clear();
   buffer_.meeting_points.clear();
@@ -81,7 +86,6 @@ PieceBuffer PieceCollector::take() {
     slots_.clear();
     round_ = 1;
   }
-  return result;
 }
 
 std::uint32_t PieceCollector::place_of(const Vertex& meeting_point) {

@@ -74,6 +74,8 @@ class PieceCollector {
 
   // What was added since the last call, in memory of the right size.
   PieceBuffer take();
+  // Forgets it: what a cell added before an error or a cancellation ended it.
+  void discard();
 
  private:
   struct Slot {
