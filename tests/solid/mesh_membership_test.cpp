@@ -27,11 +27,7 @@ class MeshPoints {
 
   Membership at(const std::array<double, 3>& place) const {
     TierStatistics statistics;
-    std::array<PlaneRef, 3> walls;
-    for (std::size_t i = 0; i < 3; ++i) {
-      walls[i] = PlaneRef::of_wall(static_cast<Axis>(i), round_wall_position(place[i]));
-    }
-    const Vertex point = scene_.geometry.meet(walls[0], walls[1], walls[2]);
+    const Vertex point = between_walls(scene_.geometry, place);
     return mesh_membership(scene_.geometry, point, polygons_, statistics);
   }
 

@@ -85,14 +85,13 @@ bool absorbs(Constant constant, BooleanOperator operation) {
 }
 
 std::optional<Vertex> point_in(const Geometry& geometry, const Cell& cell, double fraction) {
-  std::array<PlaneRef, 3> walls;
+  std::array<double, 3> place{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double position =
+    place[axis] =
         round_wall_position(cell.lower[axis] + fraction * (cell.upper[axis] - cell.lower[axis]));
-    if (!(cell.lower[axis] < position && position < cell.upper[axis])) return std::nullopt;
-    walls[axis] = PlaneRef::of_wall(static_cast<Axis>(axis), position);
+    if (!(cell.lower[axis] < place[axis] && place[axis] < cell.upper[axis])) return std::nullopt;
   }
-  return geometry.meet(walls[0], walls[1], walls[2]);
+  return between_walls(geometry, place);
 }
 
 // A point of a cell against the primitives that have facets there.

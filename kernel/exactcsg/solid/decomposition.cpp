@@ -259,12 +259,11 @@ class Decomposition::Divider {
   }
 
   Vertex inner_point(const Cell& cell) const {
-    std::array<PlaneRef, 3> walls;
+    std::array<double, 3> middle{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double middle = cell.lower[axis] + (cell.upper[axis] - cell.lower[axis]) / 2;
-      walls[axis] = PlaneRef::of_wall(static_cast<Axis>(axis), round_wall_position(middle));
+      middle[axis] = cell.lower[axis] + (cell.upper[axis] - cell.lower[axis]) / 2;
     }
-    return scene_.geometry.meet(walls[0], walls[1], walls[2]);
+    return between_walls(scene_.geometry, middle);
   }
 
   void distribute() {

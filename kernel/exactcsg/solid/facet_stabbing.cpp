@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 
+#include "exactcsg/solid/nearest_crossing.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -24,25 +25,11 @@ namespace {
 
 constexpr unsigned attempts = 64;
 
-DoubleBox box_of_corners(const CornerView& corners) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  DoubleBox box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  for (const Corner corner : corners) {
-    const std::array<double, 3> position{corner.vertex.x, corner.vertex.y, corner.vertex.z};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double slack = corner.vertex.error + 0x1p-51 * std::abs(position[i]);
-      box.lower[i] = std::min(box.lower[i], position[i] - slack);
-      box.upper[i] = std::max(box.upper[i], position[i] + slack);
-    }
-  }
-  return box;
-}
-
 std::vector<DoubleBox> boxes_of(const Scene& scene) {
   std::vector<DoubleBox> boxes;
   boxes.reserve(scene.facets.size());
   for (const SceneFacet& facet : scene.facets) {
-    boxes.push_back(box_of_corners(scene.corners_of(facet)));
+    boxes.push_back(box_of(scene.corners_of(facet)));
   }
   return boxes;
 }
@@ -221,8 +208,7 @@ std::optional<WindingSides> FacetStabbing::shoot(FacetIndex facet, const Origin&
   const PlaneRef own = scene_.facets[facet].plane.plane;
   const Axis axis = origin.axis();
   const Sign direction = component_sign(geometry, own, axis);
-  const Corner start{origin.near(), PlaneRef()};
-  DoubleBox ray = box_of_corners(std::span(&start, 1));
+  DoubleBox ray = box_of(origin.near());
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (direction == Sign::Positive) {
     ray.upper[static_cast<std::size_t>(axis)] = infinity;

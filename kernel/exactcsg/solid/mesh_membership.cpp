@@ -50,12 +50,6 @@ CertifiedDouble value_at(const Geometry::ApproximatePlane& plane, const Certifie
          CertifiedDouble{plane.d, plane.offset_error};
 }
 
-DoubleBox bounds_of(const CornerView& corners) {
-  DoubleBox box = box_of(corners.vertex(0));
-  for (std::size_t i = 1; i < corners.size(); ++i) box = join(box, box_of(corners.vertex(i)));
-  return box;
-}
-
 double distance_squared(const Vertex& point, const DoubleBox& box) {
   const std::array<double, 3> p{point.x, point.y, point.z};
   double sum = 0;
@@ -64,15 +58,6 @@ double distance_squared(const Vertex& point, const DoubleBox& box) {
     sum += d * d;
   }
   return sum;
-}
-
-// The meeting point of three walls at, nearly, this place.
-Vertex between_walls(const Geometry& geometry, const std::array<double, 3>& place) {
-  std::array<PlaneRef, 3> walls;
-  for (std::size_t i = 0; i < 3; ++i) {
-    walls[i] = PlaneRef::of_wall(static_cast<Axis>(i), round_wall_position(place[i]));
-  }
-  return geometry.meet(walls[0], walls[1], walls[2]);
 }
 
 // Segments whose ends are doubles, from one point.
@@ -84,7 +69,7 @@ class SegmentTrials {
     boxes_.reserve(facets.size());
     distances_.reserve(facets.size());
     for (const FacetPolygon& facet : facets) {
-      boxes_.push_back(bounds_of(facet.corners));
+      boxes_.push_back(box_of(facet.corners));
       distances_.push_back(distance_squared(point, boxes_.back()));
     }
   }
@@ -193,7 +178,7 @@ Membership exact_membership(const Geometry& geometry, const Vertex& point,
   };
   return nearest_crossing(
       geometry.exact_point(point), facets.size(),
-      [&](std::size_t f) { return bounds_of(facets[f].corners); }, corners_of);
+      [&](std::size_t f) { return box_of(facets[f].corners); }, corners_of);
 }
 
 }  // namespace

@@ -109,6 +109,12 @@ DoubleBox box_of(const Point3& point) {
   return box_around({point.x.get_d(), point.y.get_d(), point.z.get_d()}, 0);
 }
 
+DoubleBox box_of(const CornerView& corners) {
+  DoubleBox box = box_of(corners.vertex(0));
+  for (std::size_t i = 1; i < corners.size(); ++i) box = join(box, box_of(corners.vertex(i)));
+  return box;
+}
+
 Membership nearest_crossing(const Point3& point, std::size_t facet_count,
                             const std::function<DoubleBox(std::size_t)>& bounds_of,
                             const std::function<std::vector<Point3>(std::size_t)>& corners_of) {

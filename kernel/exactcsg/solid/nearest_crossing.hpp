@@ -9,12 +9,15 @@
 #include "exactcsg/csg/boolean_operator.hpp"
 #include "exactcsg/number/geometry.hpp"
 #include "exactcsg/solid/box_pairs.hpp"
+#include "exactcsg/solid/scene.hpp"
 
 namespace exactcsg {
 
 // A box that certainly holds the vertex.
 DoubleBox box_of(const Vertex& vertex);
 DoubleBox box_of(const Point3& point);
+// The same of all corners, of which there is one at least.
+DoubleBox box_of(const CornerView& corners);
 
 // The membership of a point that lies on none of the facets. The facets are those parts of a closed
 // mesh's boundary that meet a convex region, and the point is in that region; bounds_of(f) is a box

@@ -439,6 +439,14 @@ void widen(std::array<Range, 3>& bounds, const CornerView& corners) {
   }
 }
 
+Vertex between_walls(const Geometry& geometry, const std::array<double, 3>& place) {
+  std::array<PlaneRef, 3> walls;
+  for (std::size_t i = 0; i < 3; ++i) {
+    walls[i] = PlaneRef::of_wall(static_cast<Axis>(i), round_wall_position(place[i]));
+  }
+  return geometry.meet(walls[0], walls[1], walls[2]);
+}
+
 Scene make_scene(const Solid& solid, unsigned threads) {
   return SceneBuilder(solid, threads).finish();
 }

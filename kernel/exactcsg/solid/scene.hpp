@@ -172,6 +172,9 @@ struct Scene {
   CornerView corners_of(FacetIndex facet) const { return corners_of(facets[facet]); }
 };
 
+// The meeting point of three walls, as near to the place as walls can be.
+Vertex between_walls(const Geometry& geometry, const std::array<double, 3>& place);
+
 // Occurrences of one handle in the tree become one primitive.
 // threads: as in EvaluateOptions; the scene does not depend on it.
 // THROWS Error(NumberOutOfRange) if a coordinate exceeds 1e290 in magnitude.
