@@ -2,10 +2,7 @@
 #include "exactcsg/number/exact.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "exactcsg/support/error.hpp"
@@ -96,86 +93,6 @@ std::optional<Rational> parse_fraction(std::string_view numerator, std::string_v
   return value;
 }
 
-std::size_t bit_length(const Integer& value) { return mpz_sizeinbase(value.get_mpz_t(), 2); }
-
-// mantissa * 2^-shift, the mantissa of 63 or 64 bits. Where bits were cut off, the last bit is one:
-// it lies below every position at which a double is rounded (round to odd).
-struct Leading {
-  std::uint64_t mantissa;
-  long shift;
-};
-
-// The first 64 bits of the magnitude, the first of them set. REQUIRES value != 0
-std::uint64_t first_64_bits(const Integer& value) {
-  const mp_limb_t* limbs = mpz_limbs_read(value.get_mpz_t());
-  const std::size_t size = mpz_size(value.get_mpz_t());
-  const int zeros = std::countl_zero(static_cast<std::uint64_t>(limbs[size - 1]));
-  std::uint64_t bits = limbs[size - 1] << zeros;
-  if (zeros != 0 && size > 1) bits |= limbs[size - 2] >> (64 - zeros);
-  return bits;
-}
-
-// |numerator| * 2^-shift. REQUIRES numerator != 0
-Leading leading_bits(const Integer& numerator, long shift) {
-  std::uint64_t mantissa = first_64_bits(numerator);
-  const long cut = static_cast<long>(bit_length(numerator)) - 64;
-  if (cut > 0 && static_cast<long>(mpz_scan1(numerator.get_mpz_t(), 0)) < cut) mantissa |= 1U;
-  return {mantissa, shift - cut};
-}
-
-// The same from the first 64 bits of either, if that is certain. With both cut by less than one the
-// quotient below is off by less than five; only the half of the last place decides how it is
-// rounded.
-std::optional<Leading> leading_bits_quickly(const Integer& numerator, const Integer& denominator,
-                                            long shift) {
-  __extension__ using Wide = unsigned __int128;
-  constexpr long clear_of_subnormals = 1000;
-  if (std::abs(shift) > clear_of_subnormals) return std::nullopt;
-  const auto quotient = static_cast<std::uint64_t>(
-      (static_cast<Wide>(first_64_bits(numerator)) << 63U) / first_64_bits(denominator));
-  const int dropped = static_cast<int>(std::bit_width(quotient)) - 53;
-  const std::uint64_t rest = quotient & ((std::uint64_t{1} << dropped) - 1U);
-  const std::uint64_t half = std::uint64_t{1} << (dropped - 1);
-  constexpr std::uint64_t margin = 8;
-  if (rest + margin > half && rest < half + margin) return std::nullopt;
-  return Leading{quotient | 1U, shift};
-}
-
-// |numerator| / denominator, whose bit lengths differ by e.
-Leading leading_bits(const Integer& numerator, const Integer& denominator, long e) {
-  const long shift = 63 - e;
-  if (const auto quick = leading_bits_quickly(numerator, denominator, shift)) return *quick;
-  Integer scaled = abs(numerator);
-  Integer divisor = denominator;
-  if (shift >= 0) {
-    scaled <<= static_cast<unsigned long>(shift);
-  } else {
-    divisor <<= static_cast<unsigned long>(-shift);
-  }
-  Integer quotient;
-  Integer remainder;
-  mpz_tdiv_qr(quotient.get_mpz_t(), remainder.get_mpz_t(), scaled.get_mpz_t(), divisor.get_mpz_t());
-  return {mpz_getlimbn(quotient.get_mpz_t(), 0) | (remainder != 0 ? 1U : 0U), shift};
-}
-
-// The double nearest to the number, ties to even.
-double rounded(const Leading& leading) {
-  // A double of this size keeps 53 bits, and none below 2^-1074.
-  const int length = static_cast<int>(std::bit_width(leading.mantissa));
-  const long dropped = std::max<long>(length - 53, leading.shift - 1074);
-  std::uint64_t kept = 0;
-  if (dropped < 64) {
-    kept = leading.mantissa >> dropped;
-    const std::uint64_t rest = leading.mantissa & ((std::uint64_t{1} << dropped) - 1U);
-    const std::uint64_t half = std::uint64_t{1} << (dropped - 1);
-    if (rest > half || (rest == half && (kept & 1U) != 0)) ++kept;
-  } else if (dropped == 64) {
-    // All of it lies below the last place; more than half of that place rounds up.
-    kept = leading.mantissa > (std::uint64_t{1} << 63U) ? 1 : 0;
-  }
-  return std::ldexp(static_cast<double>(kept), static_cast<int>(dropped - leading.shift));
-}
-
 }  // namespace
 
 std::optional<Rational> parse_rational(std::string_view text) {
@@ -213,27 +130,6 @@ std::optional<Rational> parse_rational(std::string_view text) {
 }
 
 Rational rational_of(double value) { return Rational(value); }
-
-double nearest_double(const Rational& value) {
-  const Integer& numerator = value.get_num();
-  const Integer& denominator = value.get_den();
-  if (numerator == 0) return 0;
-  const auto numerator_bits = static_cast<long>(bit_length(numerator));
-  const auto denominator_bits = static_cast<long>(bit_length(denominator));
-  // Both operands are exact doubles, and one IEEE division rounds correctly.
-  if (numerator_bits <= 53 && denominator_bits <= 53) {
-    return numerator.get_d() / denominator.get_d();
-  }
-  // |value| is in (2^(e-1), 2^(e+1)), e the difference of the lengths.
-  const long e = numerator_bits - denominator_bits;
-  if (e > 1025) return sgn(numerator) * std::numeric_limits<double>::infinity();
-  if (e < -1080) return std::copysign(0.0, sgn(numerator));
-  const bool power_of_two = mpz_scan1(denominator.get_mpz_t(), 0) + 1 == bit_length(denominator);
-  const Leading leading = power_of_two ? leading_bits(numerator, denominator_bits - 1)
-                                       : leading_bits(numerator, denominator, e);
-  const double magnitude = rounded(leading);
-  return sgn(numerator) < 0 ? -magnitude : magnitude;
-}
 
 std::string to_text(const Rational& value) { return value.get_str(); }
 

@@ -24,50 +24,57 @@ struct Geometry::Builder::State {
 
 namespace {
 
-struct Entry {
-  std::uint32_t row;
-  std::uint32_t value;
-};
-
-// Each row ascending and without repetition.
-SparseTable table_of(const std::vector<Entry>& entries, std::size_t rows) {
-  SparseTable table;
-  std::vector<std::uint32_t>& begin = table.begin;
-  std::vector<std::uint32_t>& values = table.values;
-  begin.assign(rows + 1, 0);
-  for (const Entry& entry : entries) ++begin[entry.row + 1];
-  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  values.resize(entries.size());
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (const Entry& entry : entries) values[next[entry.row]++] = entry.value;
-  // Rows only become shorter: they are moved to the front in place.
-  std::uint32_t written = 0;
-  std::uint32_t row_begin = 0;
-  for (std::size_t row = 0; row < rows; ++row) {
-    const std::uint32_t row_end = begin[row + 1];
-    const auto first = values.begin() + row_begin;
-    std::sort(first, values.begin() + row_end);
-    const auto last = std::unique(first, values.begin() + row_end);
-    const auto out = std::copy(first, last, values.begin() + written);
-    begin[row] = written;
-    written = static_cast<std::uint32_t>(out - values.begin());
-    row_begin = row_end;
+// The rows of value v hold r where the rows of `table` hold v in row r. Ascending.
+SparseTable transposed(const SparseTable& table, std::size_t rows) {
+  SparseTable result;
+  result.begin.assign(rows + 1, 0);
+  for (const std::uint32_t value : table.values) ++result.begin[value + 1];
+  for (std::size_t i = 1; i <= rows; ++i) result.begin[i] += result.begin[i - 1];
+  result.values.resize(table.values.size());
+  std::vector<std::uint32_t> next(result.begin.begin(), result.begin.end() - 1);
+  for (std::uint32_t row = 0; row + 1 < table.begin.size(); ++row) {
+    for (const std::uint32_t value : table.row(row)) result.values[next[value]++] = row;
   }
-  begin.back() = written;
-  values.resize(written);
-  return table;
+  return result;
 }
 
-void fill_incidences(const std::vector<Incidence>& incidences, Geometry::Data& data) {
-  std::vector<Entry> entries;
-  entries.reserve(incidences.size());
-  for (const Incidence& i : incidences) {
-    entries.push_back(
-        {static_cast<std::uint32_t>(i.point), data.of_added[i.plane].plane.table_index()});
+// REQUIRES that equal values of a row lie side by side.
+void remove_repetitions(SparseTable& table) {
+  // Rows only become shorter: they are moved to the front in place.
+  std::uint32_t written = 0;
+  std::uint32_t read = 0;
+  for (std::size_t row = 0; row + 1 < table.begin.size(); ++row) {
+    table.begin[row] = written;
+    for (; read < table.begin[row + 1]; ++read) {
+      const std::uint32_t value = table.values[read];
+      if (written == table.begin[row] || table.values[written - 1] != value) {
+        table.values[written++] = value;
+      }
+    }
   }
-  data.planes_of_points = table_of(entries, data.points.size());
-  for (Entry& entry : entries) std::swap(entry.row, entry.value);
-  data.points_of_planes = table_of(entries, data.planes.size());
+  table.begin.back() = written;
+  table.values.resize(written);
+}
+
+// Counting thrice sorts both tables.
+void fill_incidences(const std::vector<Incidence>& incidences, Geometry::Data& data) {
+  const auto plane_of = [&data](const Incidence& incidence) {
+    return data.of_added[incidence.plane].plane.table_index();
+  };
+  SparseTable points_of_planes;
+  std::vector<std::uint32_t>& begin = points_of_planes.begin;
+  begin.assign(data.planes.size() + 1, 0);
+  for (const Incidence& incidence : incidences) ++begin[plane_of(incidence) + 1];
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  points_of_planes.values.resize(incidences.size());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for (const Incidence& incidence : incidences) {
+    points_of_planes.values[next[plane_of(incidence)]++] =
+        static_cast<std::uint32_t>(incidence.point);
+  }
+  data.planes_of_points = transposed(points_of_planes, data.points.size());
+  remove_repetitions(data.planes_of_points);
+  data.points_of_planes = transposed(data.planes_of_points, data.planes.size());
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "exactcsg/number/rounding.hpp"
+
 namespace exactcsg {
 
 namespace {
@@ -31,37 +33,24 @@ std::uint64_t hash_of(const Point3& point) {
   return hash;
 }
 
-// Whether the value is one of the doubles of ordinary size. Of a canonical rational it is easily
-// seen: the denominator is a power of two, and the numerator has at most 53 significant bits.
-bool is_double(const Rational& value) {
-  const mpz_srcptr numerator = value.get_num_mpz_t();
-  const mpz_srcptr denominator = value.get_den_mpz_t();
-  if (mpz_sgn(numerator) == 0) return true;
-  const std::size_t shift = mpz_sizeinbase(denominator, 2) - 1;
-  const std::size_t length = mpz_sizeinbase(numerator, 2);
-  return shift < 900 && length < 900 && mpz_scan1(denominator, 0) == shift &&
-         length - mpz_scan1(numerator, 0) <= 53;
-}
-
 }  // namespace
 
 ApproximatePoint approximate(const Point3& point) {
-  ApproximatePoint result{nearest_double(point.x), nearest_double(point.y), nearest_double(point.z),
-                          0};
-  if (!std::isfinite(result.x) || !std::isfinite(result.y) || !std::isfinite(result.z)) {
+  const NearestDouble x = round_to_nearest(point.x);
+  const NearestDouble y = round_to_nearest(point.y);
+  const NearestDouble z = round_to_nearest(point.z);
+  if (!std::isfinite(x.value) || !std::isfinite(y.value) || !std::isfinite(z.value)) {
     return {0, 0, 0, std::numeric_limits<double>::infinity()};
   }
-  const auto widen = [&result](const Rational& exact, double rounded) {
-    if (is_double(exact)) return;
+  double error = 0;
+  for (const NearestDouble& rounded : {x, y, z}) {
+    if (rounded.is_exact) continue;
     // Half a unit in the last place is at most 2^-53 of the value, or 2^-1075 of a subnormal one.
     const double half_unit =
-        std::max(std::fabs(rounded) * 0x1p-53, std::numeric_limits<double>::denorm_min());
-    result.error = std::max(result.error, half_unit);
-  };
-  widen(point.x, result.x);
-  widen(point.y, result.y);
-  widen(point.z, result.z);
-  return result;
+        std::max(std::fabs(rounded.value) * 0x1p-53, std::numeric_limits<double>::denorm_min());
+    error = std::max(error, half_unit);
+  }
+  return {x.value, y.value, z.value, error};
 }
 
 HashedPoint hashed(const Point3& point) { return {hash_of(point), approximate(point)}; }

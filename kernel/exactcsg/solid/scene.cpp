@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <span>
 #include <unordered_map>
 
 #include "exactcsg/solid/bucket_sort.hpp"
@@ -104,7 +106,6 @@ std::vector<std::uint32_t> neighbours_of(const Polyhedron& polyhedron) {
 struct PreparedPolyhedron {
   std::vector<HashedPoint> points;
   std::vector<std::array<std::uint32_t, 3>> triples;  // of facets: corners that span the plane
-  std::vector<std::uint32_t> neighbours;
   std::vector<bool> flat_sides;  // the neighbour lies in the same plane; empty: none does
 };
 
@@ -115,7 +116,9 @@ bool coplanar(const PolyhedronSigns& signs, const std::array<std::uint32_t, 3>& 
   });
 }
 
-PreparedPolyhedron prepared(const Polyhedron& polyhedron, bool convex) {
+// `neighbours` as of neighbours_of.
+PreparedPolyhedron prepared(const Polyhedron& polyhedron, bool convex,
+                            std::span<const std::uint32_t> neighbours) {
   PreparedPolyhedron result;
   result.points.reserve(polyhedron.vertices.size());
   for (const Point3& vertex : polyhedron.vertices) result.points.push_back(hashed(vertex));
@@ -123,13 +126,12 @@ PreparedPolyhedron prepared(const Polyhedron& polyhedron, bool convex) {
   for (const Facet& facet : polyhedron.facets) {
     result.triples.push_back(spanning_triple(polyhedron, result.points, facet));
   }
-  result.neighbours = neighbours_of(polyhedron);
   if (convex) return result;  // neighbours of a convex polytope are not coplanar
   const PolyhedronSigns signs(polyhedron.vertices);
   std::size_t side = 0;
   for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
     for (std::size_t i = 0; i < polyhedron.facets[f].size(); ++i, ++side) {
-      const Facet& neighbour = polyhedron.facets[result.neighbours[side]];
+      const Facet& neighbour = polyhedron.facets[neighbours[side]];
       result.flat_sides.push_back(coplanar(signs, result.triples[f], neighbour));
     }
   }
@@ -207,19 +209,20 @@ class SceneBuilder {
     const HalfSpace* half_space = nullptr;  // null: the polyhedron
     std::shared_ptr<const Polyhedron> polyhedron;
     bool convex = true;
+    std::shared_ptr<const std::vector<std::uint32_t>> neighbours;  // while it is being added
   };
 
   PrimitiveIndex index_of(const Primitive& primitive) {
     const auto next = static_cast<PrimitiveIndex>(shapes_.size());
     std::shared_ptr<const Polyhedron> polyhedron = shared_polyhedron_of(primitive);
     if (polyhedron == nullptr) {
-      shapes_.push_back({&std::get<HalfSpace>(primitive.shape), nullptr, true});
+      shapes_.push_back({&std::get<HalfSpace>(primitive.shape), nullptr, true, nullptr});
       return next;
     }
     const auto [place, is_new] = known_.try_emplace(polyhedron.get(), next);
     if (is_new) {
       const bool convex = std::holds_alternative<ConvexPolytope>(primitive.shape);
-      shapes_.push_back({nullptr, std::move(polyhedron), convex});
+      shapes_.push_back({nullptr, std::move(polyhedron), convex, nullptr});
     }
     return place->second;
   }
@@ -238,21 +241,47 @@ class SceneBuilder {
     const std::size_t at_a_time = threads == 1 ? 1 : 64;
     std::vector<PreparedPolyhedron> some(at_a_time);
     for (std::size_t first = 0; first < shapes_.size(); first += at_a_time) {
-      const std::size_t count = std::min(at_a_time, shapes_.size() - first);
-      in_parallel(threads, count, [&](std::size_t i) {
-        const Shape& shape = shapes_[first + i];
-        if (shape.polyhedron) some[i] = prepared(*shape.polyhedron, shape.convex);
+      const auto shapes =
+          std::span(shapes_).subspan(first, std::min(at_a_time, shapes_.size() - first));
+      find_neighbours(shapes, threads);
+      in_parallel(threads, shapes.size(), [&](std::size_t i) {
+        const Shape& shape = shapes[i];
+        if (shape.polyhedron)
+          some[i] = prepared(*shape.polyhedron, shape.convex, *shape.neighbours);
       });
-      for (std::size_t i = 0; i < count; ++i) {
-        const Shape& shape = shapes_[first + i];
-        if (shape.polyhedron) {
-          builder_.add_owner(shape.polyhedron);
-          add_polyhedron(*shape.polyhedron, shape.convex, some[i]);
+      for (std::size_t i = 0; i < shapes.size(); ++i) {
+        if (shapes[i].polyhedron) {
+          builder_.add_owner(shapes[i].polyhedron);
+          add_polyhedron(shapes[i], some[i]);
         } else {
-          add_half_space(*shape.half_space);
+          add_half_space(*shapes[i].half_space);
         }
+        shapes[i].neighbours.reset();
       }
     }
+  }
+
+  // Copies of one shape follow one another in most models: their facets have the same vertices by
+  // number.
+  void find_neighbours(std::span<Shape> shapes, unsigned threads) {
+    struct Kind {
+      const Polyhedron* polyhedron;
+      std::shared_ptr<std::vector<std::uint32_t>> neighbours;
+    };
+    std::vector<Kind> new_kinds;
+    for (Shape& shape : shapes) {
+      if (!shape.polyhedron) continue;
+      if (last_kind_ == nullptr || last_kind_->facets != shape.polyhedron->facets) {
+        last_kind_ = shape.polyhedron;
+        new_kinds.push_back(
+            {shape.polyhedron.get(), std::make_shared<std::vector<std::uint32_t>>()});
+        last_neighbours_ = new_kinds.back().neighbours;
+      }
+      shape.neighbours = last_neighbours_;
+    }
+    in_parallel(threads, new_kinds.size(), [&](std::size_t i) {
+      *new_kinds[i].neighbours = neighbours_of(*new_kinds[i].polyhedron);
+    });
   }
 
   void add_half_space(const HalfSpace& half_space) {
@@ -267,9 +296,11 @@ class SceneBuilder {
     has_half_spaces_ = true;
   }
 
-  void add_polyhedron(const Polyhedron& polyhedron, bool convex, const PreparedPolyhedron& known) {
+  void add_polyhedron(const Shape& shape, const PreparedPolyhedron& known) {
+    const Polyhedron& polyhedron = *shape.polyhedron;
+    const std::vector<std::uint32_t>& neighbours = *shape.neighbours;
     const auto index = static_cast<PrimitiveIndex>(primitives_.size());
-    primitives_.push_back({convex, static_cast<FacetIndex>(facets_.size()),
+    primitives_.push_back({shape.convex, static_cast<FacetIndex>(facets_.size()),
                            static_cast<std::uint32_t>(polyhedron.facets.size())});
     std::vector<PointId> points;
     points.reserve(polyhedron.vertices.size());
@@ -283,7 +314,7 @@ class SceneBuilder {
       const auto [a, b, c] = known.triples[f];
       planes.push_back(builder_.add_plane(points[a], points[b], points[c]));
       for (const std::uint32_t v : polyhedron.facets[f]) {
-        builder_.add_incidence(points[v], planes.back());
+        if (v != a && v != b && v != c) builder_.add_incidence(points[v], planes.back());
       }
     }
     std::size_t side = 0;
@@ -297,7 +328,7 @@ class SceneBuilder {
         const bool flat = !known.flat_sides.empty() && known.flat_sides[side];
         corners_.push_back(
             {points[from], flat ? plane_across_side(polyhedron, known.triples[f], from, to)
-                                : planes[known.neighbours[side]]});
+                                : planes[neighbours[side]]});
       }
     }
   }
@@ -413,6 +444,8 @@ class SceneBuilder {
   std::vector<PendingCorner> corners_;
   std::size_t corner_total_ = 0;
   std::unordered_map<const Polyhedron*, PrimitiveIndex> known_;
+  std::shared_ptr<const Polyhedron> last_kind_;
+  std::shared_ptr<const std::vector<std::uint32_t>> last_neighbours_;
   std::array<double, 3> lower_{std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::infinity()};

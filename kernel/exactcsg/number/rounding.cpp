@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/number/rounding.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+
+namespace exactcsg {
+
+namespace {
+
+__extension__ using Wide = unsigned __int128;
+
+// The first 64 bits of a magnitude, the first of them set, and the length of the whole in bits.
+struct Head {
+  std::uint64_t bits;
+  long length;
+};
+
+// REQUIRES value != 0
+Head head_of(const Integer& value) {
+  const mp_limb_t* limbs = mpz_limbs_read(value.get_mpz_t());
+  const std::size_t size = mpz_size(value.get_mpz_t());
+  const std::uint64_t top = limbs[size - 1];
+  const int zeros = std::countl_zero(top);
+  std::uint64_t bits = top << zeros;
+  if (zeros != 0 && size > 1) bits |= limbs[size - 2] >> (64 - zeros);
+  return {bits, static_cast<long>(size) * GMP_NUMB_BITS - zeros};
+}
+
+// mantissa * 2^-shift, the mantissa of 63 or 64 bits. Where bits were cut off, the last bit is one:
+// it lies below every position at which a double is rounded (round to odd).
+struct Leading {
+  std::uint64_t mantissa;
+  long shift;
+};
+
+// |numerator| * 2^-shift. REQUIRES numerator != 0
+Leading leading_bits(const Integer& numerator, const Head& head, long shift) {
+  const long cut = head.length - 64;
+  const bool cut_off = cut > 0 && static_cast<long>(mpz_scan1(numerator.get_mpz_t(), 0)) < cut;
+  return {head.bits | (cut_off ? 1U : 0U), shift - cut};
+}
+
+// |numerator| / denominator, whose bit lengths differ by e.
+Leading leading_bits(const Integer& numerator, const Integer& denominator, long e) {
+  const long shift = 63 - e;
+  Integer scaled = abs(numerator);
+  Integer divisor = denominator;
+  if (shift >= 0) {
+    scaled <<= static_cast<unsigned long>(shift);
+  } else {
+    divisor <<= static_cast<unsigned long>(-shift);
+  }
+  Integer quotient;
+  Integer remainder;
+  mpz_tdiv_qr(quotient.get_mpz_t(), remainder.get_mpz_t(), scaled.get_mpz_t(), divisor.get_mpz_t());
+  return {mpz_getlimbn(quotient.get_mpz_t(), 0) | (remainder != 0 ? 1U : 0U), shift};
+}
+
+// REQUIRES -1022 <= exponent <= 1023
+double power_of_two(long exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52U);
+}
+
+// Results this far from the limits of doubles are rounded by the processor: a mantissa of 64 bits
+// to the nearest double, ties to even, times a power of two.
+constexpr long clear_of_limits = 900;
+
+// numerator / denominator from their heads, if that is certain. With both cut by less than one the
+// quotient of heads is off by less than five; only the half of the last place decides how it is
+// rounded.
+std::optional<double> quotient_of_heads(const Head& numerator, const Head& denominator) {
+  const long e = numerator.length - denominator.length;
+  if (std::abs(e) > clear_of_limits) return std::nullopt;
+  const auto quotient =
+      static_cast<std::uint64_t>((Wide{numerator.bits} << 63U) / denominator.bits);
+  const int dropped = 11 - std::countl_zero(quotient);
+  const std::uint64_t rest = quotient & ((std::uint64_t{1} << dropped) - 1U);
+  const std::uint64_t half = std::uint64_t{1} << (dropped - 1);
+  constexpr std::uint64_t margin = 8;
+  if (rest + margin > half && rest < half + margin) return std::nullopt;
+  return static_cast<double>(quotient | 1U) * power_of_two(e - 63);
+}
+
+// The double nearest to the number, ties to even.
+double rounded(const Leading& leading) {
+  // A double of this size keeps 53 bits, and none below 2^-1074.
+  const int length = static_cast<int>(std::bit_width(leading.mantissa));
+  const long dropped = std::max<long>(length - 53, leading.shift - 1074);
+  std::uint64_t kept = 0;
+  if (dropped < 64) {
+    kept = leading.mantissa >> dropped;
+    const std::uint64_t rest = leading.mantissa & ((std::uint64_t{1} << dropped) - 1U);
+    const std::uint64_t half = std::uint64_t{1} << (dropped - 1);
+    if (rest > half || (rest == half && (kept & 1U) != 0)) ++kept;
+  } else if (dropped == 64) {
+    // All of it lies below the last place; more than half of that place rounds up.
+    kept = leading.mantissa > (std::uint64_t{1} << 63U) ? 1 : 0;
+  }
+  return std::ldexp(static_cast<double>(kept), static_cast<int>(dropped - leading.shift));
+}
+
+bool is_power_of_two(const Integer& value) {
+  const mp_limb_t* limbs = mpz_limbs_read(value.get_mpz_t());
+  const std::size_t top = mpz_size(value.get_mpz_t()) - 1;
+  if ((limbs[top] & (limbs[top] - 1U)) != 0) return false;
+  return std::all_of(limbs, limbs + top, [](mp_limb_t limb) { return limb == 0; });
+}
+
+// numerator * 2^-shift of at most 128 bits. REQUIRES numerator != 0
+NearestDouble round_short(const Integer& numerator, const Head& head, long shift) {
+  const long cut = head.length - 64;
+  const mp_limb_t lowest = mpz_limbs_read(numerator.get_mpz_t())[0];
+  const bool cut_off = cut > 0 && (lowest << (64 - cut)) != 0;
+  const double magnitude =
+      static_cast<double>(head.bits | (cut_off ? 1U : 0U)) * power_of_two(cut - shift);
+  const bool is_exact = !cut_off && std::countr_zero(head.bits) >= 11;
+  return {sgn(numerator) < 0 ? -magnitude : magnitude, is_exact};
+}
+
+}  // namespace
+
+NearestDouble round_to_nearest(const Rational& number) {
+  const Integer& numerator = number.get_num();
+  const Integer& denominator = number.get_den();
+  if (numerator == 0) return {0, true};
+  const Head above = head_of(numerator);
+  const Head below = head_of(denominator);
+  const bool is_dyadic = is_power_of_two(denominator);
+  const auto with_sign = [&numerator](double magnitude) {
+    return sgn(numerator) < 0 ? -magnitude : magnitude;
+  };
+  if (is_dyadic) {
+    const long shift = below.length - 1;
+    if (shift < clear_of_limits && above.length <= 128) {
+      return round_short(numerator, above, shift);
+    }
+  } else if (const auto quotient = quotient_of_heads(above, below)) {
+    return {with_sign(*quotient), false};
+  }
+  // |number| is in (2^(e-1), 2^(e+1)), e the difference of the lengths.
+  const long e = above.length - below.length;
+  if (e > 1025) return {with_sign(std::numeric_limits<double>::infinity()), false};
+  if (e < -1080) return {with_sign(0.0), false};
+  if (!is_dyadic) return {with_sign(rounded(leading_bits(numerator, denominator, e))), false};
+  // The numerator of a double has few significant bits.
+  const bool is_exact = std::abs(e) <= clear_of_limits + 1 &&
+                        above.length - static_cast<long>(mpz_scan1(numerator.get_mpz_t(), 0)) <= 53;
+  return {with_sign(rounded(leading_bits(numerator, above, below.length - 1))), is_exact};
+}
+
+double nearest_double(const Rational& value) { return round_to_nearest(value).value; }
+
+}  // namespace exactcsg
