@@ -109,9 +109,9 @@ double length_of(const ApproximatePoint& point) {
   return std::fabs(point.x) + std::fabs(point.y) + std::fabs(point.z);
 }
 
-// Of a position's error, as a share of its distance from the origin: signs of what is built on it
-// will often take more than doubles.
-constexpr double poor = 0x1p-44;
+// Of a position's error, as a share of its distance from the origin: another way of computing it
+// would not find it much better.
+constexpr double good = 0x1p-44;
 
 }  // namespace
 
@@ -140,14 +140,15 @@ Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r, const Vertex& from,
   Vertex v = meeting_vertex(p, q, r);
   const std::array<ApproximatePlane, 3> planes{approximate(v.planes[0]), approximate(v.planes[1]),
                                                approximate(v.planes[2])};
-  std::optional<ApproximatePoint> position = approximate_meeting_point(planes);
-  if (!position || position->error > poor * length_of(*position)) {
-    std::optional<ApproximatePoint> crossing =
-        approximate_crossing(approximate(r), position_of(from), position_of(to));
-    if (crossing) {
-      for (const ApproximatePlane& plane : planes) snap(plane, *crossing);
-      if (!position || crossing->error < position->error) position = crossing;
-    }
+  // Between the ends is quicker to compute, and mostly as good.
+  std::optional<ApproximatePoint> position =
+      approximate_crossing(approximate(r), position_of(from), position_of(to));
+  if (position) {
+    for (const ApproximatePlane& plane : planes) snap(plane, *position);
+  }
+  if (!position || position->error > good * length_of(*position)) {
+    const std::optional<ApproximatePoint> met = approximate_meeting_point(planes);
+    if (met && (!position || met->error < position->error)) position = met;
   }
   set_position(v, position ? *position : exactly_met(v));
   return v;

@@ -10,11 +10,11 @@ PlaneSplit split_signs(const Geometry& geometry, const CornerView& polygon, Plan
   signs.resize(polygon.size());
   bool negative = false;
   bool positive = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    signs[i] = geometry.side(polygon.vertex(i), plane, statistics);
+  polygon.for_each_vertex([&](std::size_t i, const Vertex& vertex) {
+    signs[i] = geometry.side(vertex, plane, statistics);
     negative |= signs[i] == Sign::Negative;
     positive |= signs[i] == Sign::Positive;
-  }
+  });
   if (negative && positive) return PlaneSplit::Both;
   if (negative) return PlaneSplit::AllNegative;
   return positive ? PlaneSplit::AllPositive : PlaneSplit::InPlane;

@@ -55,6 +55,15 @@ class CornerView {
   Vertex vertex(std::size_t i) const {
     return geometry_ == nullptr ? corners_[i].vertex : geometry_->vertex(points_[i].point);
   }
+  // visit(i, vertex) in order; what is stored as vertices is not copied.
+  template <class Visit>
+  void for_each_vertex(Visit visit) const {
+    if (geometry_ == nullptr) {
+      for (std::size_t i = 0; i < size_; ++i) visit(i, corners_[i].vertex);
+    } else {
+      for (std::size_t i = 0; i < size_; ++i) visit(i, geometry_->vertex(points_[i].point));
+    }
+  }
   PlaneRef side_plane(std::size_t i) const {
     return geometry_ == nullptr ? corners_[i].side_plane
                                 : PlaneRef::of_table(points_[i].side_plane);
