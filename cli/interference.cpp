@@ -21,9 +21,10 @@ Answer answer_by_emptiness(Context& context, const Solid& solid, const std::stri
   }
   constexpr int digits = 17;
   constexpr std::size_t no_exact_volume = 0;
-  context.print(fmt::format("{}, of volume {}; a point of it is\n{}", if_not,
-                            measure(boundary, digits, no_exact_volume).volume_decimal,
-                            witness_lines(*witness)));
+  context.print(
+      fmt::format("{}, of volume {}; a point of it is\n{}", if_not,
+                  measure(boundary, digits, no_exact_volume, Wanted::VolumeAndArea).volume_decimal,
+                  witness_lines(*witness)));
   return Answer::No;
 }
 

@@ -88,7 +88,8 @@ Answer answer_of(const Solid& solid, const EvaluateOptions& options) {
   const double evaluated = clock.seconds();
   const auto take_figures = [&] {
     const bool exactly = has_short_common_denominator(answer.boundary);
-    answer.figures = measure(answer.boundary, 17, exactly ? longest_fraction : 0);
+    answer.figures =
+        measure(answer.boundary, 17, exactly ? longest_fraction : 0, Wanted::VolumeAndArea);
   };
   const auto take_digest = [&] { answer.digest = digest(answer.boundary); };
   in_parallel(options.threads, 2,
@@ -199,7 +200,7 @@ Json solve_sequence(const std::string& name, std::size_t side, unsigned threads)
     const Boundary boundary = design.boundary();
     apply_seconds += applied;
     merge_seconds += step.seconds() - applied;
-    const MeasuredFigures figures = measure(boundary, 17, longest_fraction);
+    const MeasuredFigures figures = measure(boundary, 17, longest_fraction, Wanted::VolumeAndArea);
     digests.push_back(digest(boundary));
     statistics += boundary.statistics.tiers;
     is_empty = boundary.empty();

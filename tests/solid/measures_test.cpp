@@ -208,6 +208,19 @@ TEST(Figures, ZeroCentroidBySymmetryAndByExactSums) {
   EXPECT_EQ((*off.centroid_decimals)[0], "1e-40");
 }
 
+// Leaving out the centre of mass changes nothing else; by grid and by exact integers.
+TEST(Figures, VolumeAndAreaAlone) {
+  for (const Rational& side : {Rational(2, 3), long_number(40009)}) {
+    const Boundary boundary = boundary_of(octahedron(side, 1, 2));
+    const MeasuredFigures all = measure(boundary);
+    const MeasuredFigures some = measure(boundary, 17, 4096, Wanted::VolumeAndArea);
+    EXPECT_EQ(some.volume_decimal, all.volume_decimal);
+    EXPECT_EQ(some.exact_volume, all.exact_volume);
+    EXPECT_EQ(some.area_decimal, all.area_decimal);
+    EXPECT_FALSE(some.centroid_decimals);
+  }
+}
+
 // A figure that is a decimal is where enclosures never agree. Here exact sums are beyond all
 // limits, so that only the symmetry about the middle of the bounding box can prove it.
 TEST(Figures, CentroidBySymmetryAboutAnyPoint) {

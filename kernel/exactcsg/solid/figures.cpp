@@ -15,16 +15,17 @@ namespace {
 // Enclosures by precision, each computed once for all figures.
 class Refinement {
  public:
-  explicit Refinement(const Boundary& boundary) : boundary_(boundary) {}
+  Refinement(const Boundary& boundary, Wanted wanted) : boundary_(boundary), wanted_(wanted) {}
   const Boundary& boundary() const { return boundary_; }
   const MeasureEnclosures& at(int bits) {
     const auto found = known_.find(bits);
     if (found != known_.end()) return found->second;
-    return known_.emplace(bits, enclose_measures(boundary_, bits)).first->second;
+    return known_.emplace(bits, enclose_measures(boundary_, bits, wanted_)).first->second;
   }
 
  private:
   const Boundary& boundary_;
+  Wanted wanted_;
   std::map<int, MeasureEnclosures> known_;
 };
 
@@ -211,7 +212,8 @@ class CentroidOracle {
 
 }  // namespace
 
-MeasuredFigures measure(const Boundary& boundary, int digits, std::size_t exact_bits) {
+MeasuredFigures measure(const Boundary& boundary, int digits, std::size_t exact_bits,
+                        Wanted wanted) {
   MeasuredFigures figures;
   figures.bounding_box = bounding_box(boundary);
   if (boundary.empty()) {
@@ -219,7 +221,7 @@ MeasuredFigures measure(const Boundary& boundary, int digits, std::size_t exact_
     if (exact_bits > 0) figures.exact_volume = 0;
     return figures;
   }
-  Refinement refinement(boundary);
+  Refinement refinement(boundary, wanted);
   if (exact_bits > 0) figures.exact_volume = volume_within(refinement, digits, exact_bits);
   if (figures.exact_volume) {
     figures.volume_decimal = to_decimal(*figures.exact_volume, digits);
@@ -231,6 +233,7 @@ MeasuredFigures measure(const Boundary& boundary, int digits, std::size_t exact_
   figures.area_decimal = decide(
       refinement, digits, "area", [](const auto& m) { return m.area; }, no_symmetry,
       [&] { return exact_area(boundary, exact_bits_to_break_ties); }, figures.unproved);
+  if (wanted == Wanted::VolumeAndArea) return figures;
   CentroidOracle oracle(boundary, *figures.bounding_box);
   figures.centroid_decimals.emplace();
   for (std::size_t i = 0; i < 3; ++i) {

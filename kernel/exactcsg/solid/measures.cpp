@@ -48,7 +48,9 @@ int grid_bits(const Boundary& boundary, int bits) {
   return bits + static_cast<int>(std::bit_width(boundary.edges.size())) + 4;
 }
 
-MeasureEnclosures enclose(const Boundary& boundary, int bits, Wanted wanted) {
+}  // namespace
+
+MeasureEnclosures enclose_measures(const Boundary& boundary, int bits, Wanted wanted) {
   if (boundary.empty()) return {{0, 0}, {0, 0}, std::nullopt};
   const int grid = grid_bits(boundary, bits);
   const ScaledVertices vertices = scale_vertices(boundary, grid);
@@ -72,18 +74,12 @@ MeasureEnclosures enclose(const Boundary& boundary, int bits, Wanted wanted) {
   return result;
 }
 
-}  // namespace
-
 Enclosure enclose_volume(const Boundary& boundary, int bits) {
-  return enclose(boundary, bits, Wanted::VolumeAndArea).volume;
+  return enclose_measures(boundary, bits, Wanted::VolumeAndArea).volume;
 }
 
 Enclosure enclose_area(const Boundary& boundary, int bits) {
-  return enclose(boundary, bits, Wanted::VolumeAndArea).area;
-}
-
-MeasureEnclosures enclose_measures(const Boundary& boundary, int bits) {
-  return enclose(boundary, bits, Wanted::Everything);
+  return enclose_measures(boundary, bits, Wanted::VolumeAndArea).area;
 }
 
 std::array<Enclosure, 3> enclose_centroid(const Boundary& boundary, int bits) {

@@ -36,13 +36,17 @@ Enclosure enclose_area(const Boundary& boundary, int bits);
 // THROWS Error(EmptySolid) if the boundary is empty.
 std::array<Enclosure, 3> enclose_centroid(const Boundary& boundary, int bits);
 
-// All three at the price of one.
+// Everything: the centre of mass too.
+enum class Wanted { VolumeAndArea, Everything };
+
+// All of them at the price of one.
 struct MeasureEnclosures {
   Enclosure volume;
   Enclosure area;
-  std::optional<std::array<Enclosure, 3>> centroid;  // nullopt: empty
+  std::optional<std::array<Enclosure, 3>> centroid;  // nullopt: empty, or not wanted
 };
-MeasureEnclosures enclose_measures(const Boundary& boundary, int bits);
+MeasureEnclosures enclose_measures(const Boundary& boundary, int bits,
+                                   Wanted wanted = Wanted::Everything);
 
 struct BoundingBox {
   Point3 lower;

@@ -12,12 +12,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "exactcsg/solid/boundary.hpp"
+#include "exactcsg/solid/measures.hpp"
 #include "exactcsg/solid/scaled_vertices.hpp"
 
 namespace exactcsg {
-
-enum class Wanted { VolumeAndArea, Everything };
 
 // |true - value| <= error
 struct Bounded {
