@@ -2,7 +2,7 @@
 #pragma once
 
 // Homogeneous integer coordinates of points and of meeting points of planes, and the bounds on
-// their bits. Private to number/, and to the exact sums of solid/. [Exact]
+// their bits. Private to the kernel. [Exact]
 
 #include <algorithm>
 #include <array>

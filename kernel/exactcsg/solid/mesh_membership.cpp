@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "exactcsg/number/certified_double.hpp"
+#include "exactcsg/solid/certified_vector.hpp"
 #include "exactcsg/solid/nearest_crossing.hpp"
 
 namespace exactcsg {
@@ -19,28 +19,6 @@ using csg::Membership;
 
 // Segments tried in doubles before rationals are taken.
 constexpr std::size_t attempts = 4;
-
-using CertifiedVector = std::array<CertifiedDouble, 3>;
-
-CertifiedVector position_of(const Vertex& v) {
-  return {CertifiedDouble{v.x, v.error}, CertifiedDouble{v.y, v.error},
-          CertifiedDouble{v.z, v.error}};
-}
-
-CertifiedVector difference(const CertifiedVector& p, const CertifiedVector& q) {
-  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-}
-
-CertifiedDouble determinant(const CertifiedVector& u, const CertifiedVector& v,
-                            const CertifiedVector& w) {
-  return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-         u[2] * (v[0] * w[1] - v[1] * w[0]);
-}
-
-// Zero: unknown.
-Sign sign_of_certain(const CertifiedDouble& x) {
-  return x.value > x.error ? Sign::Positive : -x.value > x.error ? Sign::Negative : Sign::Zero;
-}
 
 // n p + d
 CertifiedDouble value_at(const Geometry::ApproximatePlane& plane, const CertifiedVector& p) {
@@ -145,7 +123,7 @@ class SegmentTrials {
     CertifiedVector a = difference(position_of(corners.vertex(corners.size() - 1)), from);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const CertifiedVector b = difference(position_of(corners.vertex(i)), from);
-      const CertifiedDouble turn = determinant(along, a, b);
+      const CertifiedDouble turn = dot(along, cross(a, b));
       a = b;
       const Sign sign = sign_of_certain(turn);
       if (sign == Sign::Zero) {

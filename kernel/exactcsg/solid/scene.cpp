@@ -5,10 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 
+#include "exactcsg/number/homogeneous.hpp"
 #include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/solid/certified_vector.hpp"
 #include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/polygon.hpp"
 #include "exactcsg/solid/polyhedron_signs.hpp"
@@ -109,12 +112,44 @@ struct PreparedPolyhedron {
   std::vector<bool> flat_sides;  // the neighbour lies in the same plane; empty: none does
 };
 
-bool coplanar(const PolyhedronSigns& signs, const std::array<std::uint32_t, 3>& triple,
-              const Facet& other) {
-  return std::all_of(other.begin(), other.end(), [&](std::uint32_t corner) {
-    return signs.orientation(triple[0], triple[1], triple[2], corner) == Sign::Zero;
-  });
-}
+// Tells which neighbours of a facet lie in its plane: mostly by doubles that none does.
+class FlatSides {
+ public:
+  FlatSides(const Polyhedron& polyhedron, const std::vector<HashedPoint>& near)
+      : polyhedron_(polyhedron), near_(near) {}
+
+  // The facets asked about next are neighbours of this one.
+  void set_facet(const Facet& facet, const std::array<std::uint32_t, 3>& triple) {
+    facet_ = &facet;
+    triple_ = triple;
+    origin_ = position_of(near_[triple[0]].near);
+    normal_ = cross(difference(position_of(near_[triple[1]].near), origin_),
+                    difference(position_of(near_[triple[2]].near), origin_));
+  }
+
+  bool is_flat(const Facet& neighbour) {
+    return std::all_of(neighbour.begin(), neighbour.end(), [&](std::uint32_t corner) {
+      return std::find(facet_->begin(), facet_->end(), corner) != facet_->end() ||
+             is_in_plane(corner);
+    });
+  }
+
+ private:
+  bool is_in_plane(std::uint32_t corner) {
+    const CertifiedVector to_corner = difference(position_of(near_[corner].near), origin_);
+    if (sign_of_certain(dot(normal_, to_corner)) != Sign::Zero) return false;
+    if (!signs_) signs_.emplace(polyhedron_.vertices);
+    return signs_->orientation(triple_[0], triple_[1], triple_[2], corner) == Sign::Zero;
+  }
+
+  const Polyhedron& polyhedron_;
+  const std::vector<HashedPoint>& near_;
+  const Facet* facet_ = nullptr;
+  std::array<std::uint32_t, 3> triple_{};
+  CertifiedVector origin_;
+  CertifiedVector normal_;
+  std::optional<PolyhedronSigns> signs_;
+};
 
 // `neighbours` as of neighbours_of.
 PreparedPolyhedron prepared(const Polyhedron& polyhedron, bool convex,
@@ -127,32 +162,34 @@ PreparedPolyhedron prepared(const Polyhedron& polyhedron, bool convex,
     result.triples.push_back(spanning_triple(polyhedron, result.points, facet));
   }
   if (convex) return result;  // neighbours of a convex polytope are not coplanar
-  const PolyhedronSigns signs(polyhedron.vertices);
+  FlatSides flat_sides(polyhedron, result.points);
+  result.flat_sides.reserve(neighbours.size());
   std::size_t side = 0;
   for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
+    flat_sides.set_facet(polyhedron.facets[f], result.triples[f]);
     for (std::size_t i = 0; i < polyhedron.facets[f].size(); ++i, ++side) {
-      const Facet& neighbour = polyhedron.facets[neighbours[side]];
-      result.flat_sides.push_back(coplanar(signs, result.triples[f], neighbour));
+      result.flat_sides.push_back(flat_sides.is_flat(polyhedron.facets[neighbours[side]]));
     }
   }
   return result;
 }
 
-// A plane through the side, not the facet's own: it contains the axis that the facet's normal
-// leans to most.
-Plane plane_across(const Plane& facet, const Point3& p, const Point3& q) {
-  const Integer a = abs(facet.a);
-  const Integer b = abs(facet.b);
-  const Integer c = abs(facet.c);
-  Vector3 axis{0, 0, 1};
-  if (a >= b && a >= c) {
-    axis = {1, 0, 0};
-  } else if (b >= c) {
-    axis = {0, 1, 0};
+// A plane through the side from p to q, not the facet's own: it contains the axis that the facet's
+// normal leans to most.
+Plane plane_across(const Plane& facet, const Homogeneous<Integer>& p,
+                   const Homogeneous<Integer>& q) {
+  const auto leans_more = [](const Integer& a, const Integer& b) {
+    return mpz_cmpabs(a.get_mpz_t(), b.get_mpz_t()) >= 0;
+  };
+  Homogeneous<Integer> along_axis = p;
+  if (leans_more(facet.a, facet.b) && leans_more(facet.a, facet.c)) {
+    along_axis.x += p.w;
+  } else if (leans_more(facet.b, facet.c)) {
+    along_axis.y += p.w;
+  } else {
+    along_axis.z += p.w;
   }
-  const Vector3 n = cross(q - p, axis);
-  const Rational offset = -(n.x * p.x + n.y * p.y + n.z * p.z);
-  return make_plane(n.x, n.y, n.z, offset);
+  return plane_through(p, q, along_axis);
 }
 
 SceneBounds bounds_of(const Scene& scene) {
@@ -336,9 +373,9 @@ class SceneBuilder {
   std::uint32_t plane_across_side(const Polyhedron& polyhedron,
                                   const std::array<std::uint32_t, 3>& triple, std::uint32_t from,
                                   std::uint32_t to) {
-    const auto& vertices = polyhedron.vertices;
-    const Plane own = plane_through(vertices[triple[0]], vertices[triple[1]], vertices[triple[2]]);
-    return builder_.add_plane(plane_across(own, vertices[from], vertices[to]));
+    const auto corner = [&](std::uint32_t v) { return homogeneous_of(polyhedron.vertices[v]); };
+    const Plane own = plane_through(corner(triple[0]), corner(triple[1]), corner(triple[2]));
+    return builder_.add_plane(plane_across(own, corner(from), corner(to)));
   }
 
   // An infinite error: coordinates that doubles cannot hold.
