@@ -112,6 +112,9 @@ class Decomposition::Divider {
     WallSide side = WallSide::Within;  // of all; Both: of some only, or unknown
     std::size_t first = 0;  // of its facets' in Scratch::sides, if they are not on one side
     std::array<std::uint32_t, 2> counts{};  // that reach each child
+    // Of these, facets that will be clipped ones there, and how many corners they have at most.
+    std::array<std::uint32_t, 2> clipped_counts{};
+    std::array<std::uint32_t, 2> corner_counts{};
   };
 
   static WallSide side_of_child(std::size_t child) {
@@ -134,24 +137,37 @@ class Decomposition::Divider {
     result.side = wall_side(bounds, division_);
     const auto count = static_cast<std::uint32_t>(facets.count());
     if (result.side != WallSide::Both) {
-      result.counts[result.side == WallSide::Above ? 1 : 0] = count;
+      const std::size_t child = result.side == WallSide::Above ? 1 : 0;
+      result.counts[child] = count;
+      result.clipped_counts[child] = facets.clipped_count;
+      for (const ClippedFacet& facet : task_.clipped_of(facets)) {
+        result.corner_counts[child] += facet.corner_count;
+      }
       return result;
     }
     result.first = scratch_.sides.size();
-    const auto add = [&](WallSide side) {
+    // A cut adds a corner to a part at most.
+    const auto add = [&](WallSide side, bool is_clipped, std::size_t corner_count) {
       scratch_.sides.push_back(side);
+      const bool is_cut = side == WallSide::Both;
       for (std::size_t child = 0; child < 2; ++child) {
-        result.counts[child] += reaches(side, side_of_child(child)) ? 1 : 0;
+        if (!reaches(side, side_of_child(child))) continue;
+        ++result.counts[child];
+        if (!is_clipped && !is_cut) continue;
+        ++result.clipped_counts[child];
+        result.corner_counts[child] += static_cast<std::uint32_t>(corner_count) + (is_cut ? 1 : 0);
       }
     };
     for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
       const FacetIndex facet = task_.whole_facet(scene_, facets, i);
       const WallSide side = wall_side(bounds_of(facet), division_);
-      add(side == WallSide::Both ? exact_side(scene_.corners_of(facet)) : side);
+      add(side == WallSide::Both ? exact_side(scene_.corners_of(facet)) : side, false,
+          scene_.facets[facet].corner_count);
     }
     for (const ClippedFacet& facet : task_.clipped_of(facets)) {
       const WallSide side = wall_side(facet.bounds[axis_], division_);
-      add(side == WallSide::Both ? exact_side(task_.corners_of(facet)) : side);
+      add(side == WallSide::Both ? exact_side(task_.corners_of(facet)) : side, true,
+          facet.corner_count);
     }
     return result;
   }
@@ -195,6 +211,8 @@ class Decomposition::Divider {
     CellTask& child = children_[which];
     std::size_t primitives = 0;
     std::size_t whole = 0;
+    std::size_t clipped = 0;
+    std::size_t corners = 0;
     for (std::size_t i = 0; i < task_.primitives.size(); ++i) {
       const PrimitiveFacets& facets = task_.primitives[i];
       const std::uint32_t count = primitive_sides_[i].counts[which];
@@ -203,9 +221,13 @@ class Decomposition::Divider {
       if (!(facets.all && primitive_sides_[i].side != WallSide::Both)) {
         whole += std::min(count, facets.whole_count);
       }
+      clipped += primitive_sides_[i].clipped_counts[which];
+      corners += primitive_sides_[i].corner_counts[which];
     }
     child.primitives.reserve(primitives);
     child.whole.reserve(whole);
+    child.clipped.reserve(clipped);
+    child.corners.reserve(corners);
   }
 
   // A primitive none of whose facets reaches the child is Full or Empty there: an inner point of
