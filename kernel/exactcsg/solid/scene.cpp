@@ -498,15 +498,19 @@ class SceneBuilder {
 }  // namespace
 
 void widen(std::array<Range, 3>& bounds, const CornerView& corners) {
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto [value, error] = corners.coordinate(i, static_cast<Axis>(axis));
-      // Widened by two units in the last place, for the rounding of this very sum.
-      const double slack = error + 0x1p-51 * std::abs(value);
-      bounds[axis].lower = std::min(bounds[axis].lower, value - slack);
-      bounds[axis].upper = std::max(bounds[axis].upper, value + slack);
-    }
-  }
+  std::array<Range, 3> result = bounds;
+  const auto widen_range = [](Range& range, double value, double error) {
+    // Widened by two units in the last place, for the rounding of this very sum.
+    const double slack = error + 0x1p-51 * std::abs(value);
+    range.lower = std::min(range.lower, value - slack);
+    range.upper = std::max(range.upper, value + slack);
+  };
+  corners.for_each_vertex([&](std::size_t, const Vertex& vertex) {
+    widen_range(result[0], vertex.x, vertex.error);
+    widen_range(result[1], vertex.y, vertex.error);
+    widen_range(result[2], vertex.z, vertex.error);
+  });
+  bounds = result;
 }
 
 Vertex between_walls(const Geometry& geometry, const std::array<double, 3>& place) {
