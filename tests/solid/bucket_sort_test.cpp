@@ -36,6 +36,26 @@ TEST(BucketSort, SortsByBucketAndThenByLess) {
   EXPECT_EQ(items, expected);
 }
 
+TEST(BucketSort, SortsTheSameWithEveryNumberOfThreads) {
+  std::mt19937 random(9);
+  for (const std::uint32_t buckets : {1U, 256U, 257U, 70000U}) {
+    // Items that are moved, not copied; the middle bucket holds more than its share.
+    std::vector<std::pair<std::uint32_t, std::vector<std::uint32_t>>> items(20000);
+    for (auto& [bucket, rest] : items) {
+      bucket = random() % 4 == 0 ? buckets / 2 : static_cast<std::uint32_t>(random() % buckets);
+      rest.push_back(static_cast<std::uint32_t>(random()));
+    }
+    auto expected = items;
+    std::sort(expected.begin(), expected.end());
+    for (const unsigned threads : {1U, 2U, 0U}) {
+      auto sorted = items;
+      sort_in_buckets(
+          sorted, buckets, [](const auto& item) { return item.first; }, std::less<>(), threads);
+      EXPECT_EQ(sorted, expected) << buckets << ' ' << threads;
+    }
+  }
+}
+
 TEST(BucketSort, SortsNothing) {
   std::vector<int> none;
   sort_in_buckets(

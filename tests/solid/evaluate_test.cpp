@@ -255,6 +255,49 @@ TEST(CanonicalBoundary, DoesNotDependOnTreeCellsOrThreads) {
   }
 }
 
+// LAW boundary.1 where there is enough to be done in parts, of every kind: facets that are cut and
+// those that are not, faces joined over many cells, coplanar neighbours, edges that touch others,
+// vertices where faces touch themselves.
+TEST(CanonicalBoundary, DoesNotDependOnThreadsInLargeScenes) {
+  AffineMap turn = AffineMap::identity();
+  turn.m[0] = {Rational(3, 5), Rational(-4, 5), 0, Rational(1, 7)};
+  turn.m[1] = {Rational(4, 5), Rational(3, 5), 0, 0};
+  std::vector<Solid> parts;
+  for (int i = 0; i < 20; ++i) {
+    for (int j = 0; j < 20; ++j) {
+      if ((i + j) % 3 != 0) parts.push_back(box(i, j, 0, i + 1, j + 1, 1 + (i * j) % 3));
+      if ((i * j) % 2 == 0) {
+        parts.push_back(apply(turn, box(i, j, 0, i + 1, j + 1, 1 + (i + j) % 2)));
+      }
+      // Alone; every second one touches its neighbour along a side or in a corner.
+      parts.push_back(box(3 * i, 3 * j, 9, 3 * i + 2 + i % 2, 3 * j + 2 + j % 2, 10));
+      AffineMap shift = AffineMap::identity();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        shift.m[axis][3] = axis == 2 ? 10 : 3 * (axis == 0 ? i : j);
+      parts.push_back(apply(shift, apply(turn, box(0, 0, 0, 1, 1, 1 + i % 3))));
+    }
+  }
+  const Solid solid = Solid::compose(csg::BooleanOperator::Union, parts);
+  const Boundary reference = evaluate(solid);
+  EXPECT_GT(reference.faces.size(), 2U * 2048U);
+  const auto loops_of = [](const Boundary& boundary) {
+    std::vector<std::vector<std::vector<std::uint32_t>>> loops;
+    for (const BoundaryFace& face : boundary.faces) loops.push_back(face.loops);
+    return loops;
+  };
+  for (const unsigned threads : {2U, 0U}) {
+    EvaluateOptions options;
+    options.threads = threads;
+    const Boundary boundary = evaluate(solid, options);
+    EXPECT_EQ(boundary.vertices, reference.vertices);
+    EXPECT_EQ(boundary.approximate, reference.approximate);
+    EXPECT_EQ(boundary.edges, reference.edges);
+    EXPECT_EQ(loops_of(boundary), loops_of(reference));
+    EXPECT_EQ(exact_planes(boundary), exact_planes(reference));
+    EXPECT_EQ(boundary.statistics.tiers, reference.statistics.tiers);
+  }
+}
+
 // LAW boundary.3
 TEST(CanonicalBoundary, DirectedEdgesBalance) {
   const Boundary b = evaluate(sponge(2));

@@ -2,6 +2,7 @@
 #include "exactcsg/solid/canonical_boundary.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -12,10 +13,12 @@
 
 #include "exactcsg/solid/box_pairs.hpp"
 #include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/solid/disjoint_sets.hpp"
 #include "exactcsg/solid/face_loops.hpp"
 #include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/line_interning.hpp"
 #include "exactcsg/solid/nearest_crossing.hpp"
+#include "exactcsg/solid/per_thread.hpp"
 #include "exactcsg/solid/settled_facets.hpp"
 #include "exactcsg/solid/vertex_interning.hpp"
 
@@ -30,29 +33,6 @@ using PieceNumber = std::uint32_t;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 [[noreturn]] void broken(const char* what) { throw Error(ErrorId::InternalError, {what, ""}); }
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t find(std::uint32_t item) {
-    while (parent_[item] != item) {
-      parent_[item] = parent_[parent_[item]];
-      item = parent_[item];
-    }
-    return item;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    // The smaller number leads: independent of the order of calls.
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 // A piece's edge as the face's boundary would walk it: the piece on the left, seen from outside.
 struct PieceEdge {
@@ -82,12 +62,12 @@ bool lexicographically_less(const Position& p, const Position& q) {
   return false;
 }
 
-void sort_lexicographically(std::vector<Position>& positions) {
+void sort_lexicographically(std::vector<Position>& positions, unsigned threads) {
   const auto x = [](const Position& position) { return position.approximate[0]; };
-  const DoubleBuckets buckets(positions, x);
+  const DoubleBuckets buckets(positions, x, threads);
   sort_in_buckets(
       positions, buckets.count(), [&](const Position& position) { return buckets.of(x(position)); },
-      lexicographically_less);
+      lexicographically_less, threads);
 }
 
 // Part of a line that bounds pieces of one oriented plane on one side only.
@@ -135,6 +115,46 @@ struct SettledSide {
   bool settled;
 };
 
+// The pieces of all buffers in one row.
+class PieceRow {
+ public:
+  explicit PieceRow(const std::vector<PieceBuffer>& buffers) : buffers_(buffers) {
+    for (const PieceBuffer& buffer : buffers) {
+      first_piece_.push_back(first_piece_.back() + buffer.pieces.size());
+      first_meeting_point_.push_back(first_meeting_point_.back() + buffer.meeting_points.size());
+    }
+  }
+
+  std::size_t size() const { return first_piece_.back(); }
+  std::size_t meeting_point_count() const { return first_meeting_point_.back(); }
+
+  // visit(buffer, place of its first meeting point among all, piece, number of the piece) for the
+  // pieces with these numbers.
+  template <class Visit>
+  void for_each(std::size_t begin, std::size_t end, Visit visit) const {
+    if (begin == end) return;
+    auto b =
+        static_cast<std::size_t>(std::upper_bound(first_piece_.begin(), first_piece_.end(), begin) -
+                                 first_piece_.begin() - 1);
+    for (std::size_t number = begin; number < end; ++b) {
+      const PieceBuffer& buffer = buffers_[b];
+      const std::size_t end_here = std::min(end, first_piece_[b + 1]);
+      for (; number < end_here; ++number) {
+        visit(buffer, first_meeting_point_[b], buffer.pieces[number - first_piece_[b]],
+              static_cast<PieceNumber>(number));
+      }
+    }
+  }
+
+ private:
+  const std::vector<PieceBuffer>& buffers_;
+  std::vector<std::size_t> first_piece_{0};
+  std::vector<std::size_t> first_meeting_point_{0};
+};
+
+// For bytes that several threads may set at once.
+void set_mark(unsigned char& mark) { std::atomic_ref(mark).store(1, std::memory_order_relaxed); }
+
 class Merger {
  public:
   Merger(const Scene& scene, const std::vector<PieceBuffer>& buffers, unsigned threads,
@@ -144,8 +164,8 @@ class Merger {
         threads_(threads),
         progress_(progress),
         settled_(settled_facets(scene, buffers)),
-        faces_(count_pieces(buffers)) {
-    number_vertices(buffers);
+        faces_(PieceRow(buffers).size()) {
+    number_vertices(PieceRow(buffers));
   }
 
   Boundary merge() {
@@ -167,12 +187,6 @@ class Merger {
     add_up(edges, line_of_edge);
   }
 
-  static std::size_t count_pieces(const std::vector<PieceBuffer>& buffers) {
-    std::size_t count = 0;
-    for (const PieceBuffer& buffer : buffers) count += buffer.pieces.size();
-    return count;
-  }
-
   void check() const {
     if (progress_ != nullptr) progress_->check();
   }
@@ -186,28 +200,85 @@ class Merger {
     VertexNumber next(std::size_t i) const { return vertices[i + 1 == size() ? 0 : i + 1]; }
   };
 
-  // Sets vertices_, edges_, settled_edges_ and settled_faces_.
-  void number_vertices(const std::vector<PieceBuffer>& buffers) {
-    InternedVertices interned = intern(geometry_, vertices_of(buffers), statistics_);
+  // How many entries pieces make in the arrays.
+  struct PieceCounts {
+    std::size_t edges = 0;
+    std::size_t settled_faces = 0;
+    std::size_t settled_sides = 0;
+  };
+
+  // Where the next piece makes its entries.
+  struct PiecePlaces {
+    PieceCounts next;
+    std::vector<SettledEdge>& settled_edges;
+  };
+
+  // Sets vertices_, edges_, settled_edges_, settled_faces_, settled_sides_ and primitive_of_piece_.
+  void number_vertices(const PieceRow& pieces) {
+    InternedVertices interned = intern(geometry_, vertices_of(pieces), statistics_, threads_);
     vertices_ = std::move(interned.distinct);
-    reserve(buffers);
-    NumberedCorners corners;
-    PieceNumber number = 0;
-    std::size_t first_meeting_point = 0;  // of the buffer
-    for (const PieceBuffer& buffer : buffers) {
-      for (const BoundaryPiece& piece : buffer.pieces) {
-        number_corners(buffer, piece, interned, first_meeting_point, corners);
-        if (settled_.is_settled(piece)) {
-          add_settled_face(piece, number, corners);
-        } else {
-          for (std::size_t i = 0; i < corners.size(); ++i) add_edge(piece, number, corners, i);
-        }
-        primitive_of_piece_.push_back(whole_primitive_of(piece));
-        ++number;
-      }
-      first_meeting_point += buffer.meeting_points.size();
+    const Parts parts(pieces.size());
+    const std::vector<PieceCounts> firsts = first_entries(pieces, parts);
+    edges_.resize(firsts.back().edges);
+    settled_faces_.resize(firsts.back().settled_faces);
+    settled_sides_.resize(firsts.back().settled_sides);
+    primitive_of_piece_.resize(pieces.size());
+    std::vector<std::vector<SettledEdge>> settled_edges(parts.count());
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      check();
+      PiecePlaces places{firsts[part], settled_edges[part]};
+      NumberedCorners corners;
+      pieces.for_each(begin, end,
+                      [&](const PieceBuffer& buffer, std::size_t first_meeting_point,
+                          const BoundaryPiece& piece, PieceNumber number) {
+                        number_corners(buffer, piece, interned, first_meeting_point, corners);
+                        if (settled_.is_settled(piece)) {
+                          add_settled_face(piece, number, corners, places);
+                        } else {
+                          for (std::size_t i = 0; i < corners.size(); ++i) {
+                            add_edge(piece, number, corners, i, places);
+                          }
+                        }
+                        primitive_of_piece_[number] = whole_primitive_of(piece);
+                      });
+    });
+    settled_edges_ = joined(threads_, std::move(settled_edges));
+    statistics_pieces_ = pieces.size();
+  }
+
+  // Where the entries of each part begin, and how many there are.
+  std::vector<PieceCounts> first_entries(const PieceRow& pieces, const Parts& parts) const {
+    std::vector<PieceCounts> counts(parts.count());
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      PieceCounts count;
+      pieces.for_each(begin, end,
+                      [&](const PieceBuffer&, std::size_t, const BoundaryPiece& piece,
+                          PieceNumber) { this->count(piece, count); });
+      counts[part] = count;
+    });
+    std::vector<PieceCounts> firsts(1);
+    for (const PieceCounts& count : counts) {
+      const PieceCounts& first = firsts.back();
+      firsts.push_back({first.edges + count.edges, first.settled_faces + count.settled_faces,
+                        first.settled_sides + count.settled_sides});
     }
-    statistics_pieces_ = number;
+    return firsts;
+  }
+
+  void count(const BoundaryPiece& piece, PieceCounts& counts) const {
+    if (!settled_.is_settled(piece)) {
+      counts.edges += piece.share == facet_share::whole ? scene_.facets[piece.facet].corner_count
+                                                        : piece.corner_count;
+      return;
+    }
+    // A whole facet.
+    const std::span<const PointCorner> corners = corners_of_facet(piece);
+    ++counts.settled_faces;
+    counts.settled_sides += corners.size();
+    counts.edges +=
+        static_cast<std::size_t>(std::count_if(corners.begin(), corners.end(), [&](auto& corner) {
+          return !settled_.is_settled(PlaneRef::of_table(corner.side_plane));
+        }));
   }
 
   std::span<const PointCorner> corners_of_facet(const BoundaryPiece& piece) const {
@@ -237,81 +308,56 @@ class Merger {
   }
 
   // Meeting points in the order of the buffers, and the points that occur.
-  CornerVertices vertices_of(const std::vector<PieceBuffer>& buffers) const {
+  CornerVertices vertices_of(const PieceRow& pieces) const {
     CornerVertices result;
-    result.has_point.assign(geometry_.point_count(), false);
-    std::size_t meeting_points = 0;
-    for (const PieceBuffer& buffer : buffers) meeting_points += buffer.meeting_points.size();
-    result.meeting_points.reserve(meeting_points);
-    for (const PieceBuffer& buffer : buffers) {
-      const std::size_t first = result.meeting_points.size();
-      result.meeting_points.resize(first + buffer.meeting_points.size(), nullptr);
-      for (const BoundaryPiece& piece : buffer.pieces) {
-        if (piece.share == facet_share::whole) {
-          for (const PointCorner& corner : corners_of_facet(piece)) {
-            result.has_point[static_cast<std::uint32_t>(corner.point)] = true;
-          }
-          continue;
+    result.has_point.assign(geometry_.point_count(), 0);
+    result.meeting_points.assign(pieces.meeting_point_count(), nullptr);
+    const auto add = [&](const PieceBuffer& buffer, std::size_t first_meeting_point,
+                         const BoundaryPiece& piece, PieceNumber) {
+      if (piece.share == facet_share::whole) {
+        for (const PointCorner& corner : corners_of_facet(piece)) {
+          set_mark(result.has_point[static_cast<std::uint32_t>(corner.point)]);
         }
-        for (const PieceCorner& corner : buffer.corners_of(piece)) {
-          if (corner.is_point) {
-            result.has_point[corner.vertex] = true;
-          } else {
-            result.meeting_points[first + corner.vertex] = &buffer.meeting_points[corner.vertex];
-          }
-        }
+        return;
       }
-    }
-    return result;
-  }
-
-  void reserve(const std::vector<PieceBuffer>& buffers) {
-    std::size_t settled_sides = 0;
-    std::size_t settled_faces = 0;
-    std::size_t edges = 0;
-    for (const PieceBuffer& buffer : buffers) {
-      for (const BoundaryPiece& piece : buffer.pieces) {
-        const std::size_t corners = piece.share == facet_share::whole
-                                        ? scene_.facets[piece.facet].corner_count
-                                        : piece.corner_count;
-        if (settled_.is_settled(piece)) {
-          settled_sides += corners;
-          ++settled_faces;
+      for (const PieceCorner& corner : buffer.corners_of(piece)) {
+        if (corner.is_point) {
+          set_mark(result.has_point[corner.vertex]);
         } else {
-          edges += corners;
+          std::atomic_ref(result.meeting_points[first_meeting_point + corner.vertex])
+              .store(&buffer.meeting_points[corner.vertex], std::memory_order_relaxed);
         }
       }
-    }
-    primitive_of_piece_.reserve(count_pieces(buffers));
-    settled_faces_.reserve(settled_faces);
-    settled_sides_.reserve(settled_sides);
-    settled_edges_.reserve(settled_sides / 2);
-    // Settled faces have others beside them as well.
-    edges_.reserve(edges + edges / 4);
+    };
+    in_parallel(
+        threads_, Parts(pieces.size()),
+        [&](std::size_t, std::size_t begin, std::size_t end) { pieces.for_each(begin, end, add); });
+    return result;
   }
 
   // The edge from corner i to the next.
   void add_edge(const BoundaryPiece& piece, PieceNumber number, const NumberedCorners& corners,
-                std::size_t i) {
+                std::size_t i, PiecePlaces& places) {
     VertexNumber from = corners.vertices[i];
     VertexNumber to = corners.next(i);
     if (from == to) broken("a piece of boundary with two equal corners");
     if (piece.corner_sense != piece.plane.sense) std::swap(from, to);
-    edges_.push_back({piece.plane, corners.side_planes[i], from, to, number});
+    edges_[places.next.edges++] = {piece.plane, corners.side_planes[i], from, to, number};
   }
 
   void add_settled_face(const BoundaryPiece& piece, PieceNumber number,
-                        const NumberedCorners& corners) {
+                        const NumberedCorners& corners, PiecePlaces& places) {
     const std::size_t count = corners.size();
-    SettledFace face{piece.plane, number, static_cast<std::uint32_t>(settled_sides_.size()),
+    SettledFace face{piece.plane, number, static_cast<std::uint32_t>(places.next.settled_sides),
                      static_cast<std::uint32_t>(count), true};
+    const auto sides = std::span(settled_sides_).subspan(face.first_side, count);
     for (std::size_t i = 0; i < count; ++i) {
       const PlaneRef side_plane = corners.side_planes[i];
       const bool settled = settled_.is_settled(side_plane);
-      settled_sides_.push_back({corners.vertices[i], settled});
+      sides[i] = {corners.vertices[i], settled};
       if (!settled) {
         face.all_sides_settled = false;
-        add_edge(piece, number, corners, i);
+        add_edge(piece, number, corners, i, places);
         continue;
       }
       const VertexNumber from = corners.vertices[i];
@@ -321,17 +367,18 @@ class Merger {
       if (from > to) continue;
       const auto [first, second] = std::minmax(piece.plane.plane, side_plane);
       const bool isolated = settled_.is_isolated(first) || settled_.is_isolated(second);
-      settled_edges_.push_back({first, second, from, to, whole_primitive_of(piece), !isolated});
+      places.settled_edges.push_back(
+          {first, second, from, to, whole_primitive_of(piece), !isolated});
     }
     if (piece.corner_sense != piece.plane.sense) {
       // Corners and the sides between them, backwards from the same corner.
-      const auto sides = std::span(settled_sides_).subspan(face.first_side);
       for (std::size_t i = 0; i < count; ++i) {
         sides[i].from = corners.vertices[i == 0 ? 0 : count - i];
         sides[i].settled = settled_.is_settled(corners.side_planes[count - 1 - i]);
       }
     }
-    settled_faces_.push_back(face);
+    places.next.settled_sides += count;
+    settled_faces_[places.next.settled_faces++] = face;
   }
 
   // The primitive of which the piece is a whole facet, or none. Edges of one primitive meet in
@@ -348,36 +395,50 @@ class Merger {
       std::uint64_t ends;
       std::uint32_t edge;
     };
-    std::vector<Keyed> order;
-    order.reserve(edges_.size());
-    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+    std::vector<Keyed> order(edges_.size());
+    in_parallel_parts(threads_, edges_.size(), [&](std::size_t i) {
       const auto [low, high] = std::minmax(edges_[i].from, edges_[i].to);
-      order.push_back({(static_cast<std::uint64_t>(low) << 32U) | high, i});
-    }
+      order[i] = {(static_cast<std::uint64_t>(low) << 32U) | high, static_cast<std::uint32_t>(i)};
+    });
     const auto lower_end = [](const Keyed& keyed) { return keyed.ends >> 32U; };
-    sort_in_buckets(order, vertices_.size(), lower_end, [&](const Keyed& a, const Keyed& b) {
+    const auto less = [&](const Keyed& a, const Keyed& b) {
       if (a.ends != b.ends) return a.ends < b.ends;
       const PieceEdge& p = edges_[a.edge];
       const PieceEdge& q = edges_[b.edge];
       if (p.plane != q.plane) return p.plane < q.plane;
       if (p.from != q.from) return p.from < q.from;
       return a.edge < b.edge;
-    });
-    std::vector<PieceEdge> left;
-    left.reserve(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const PieceEdge& edge = edges_[order[i].edge];
-      if (i + 1 < order.size() && order[i + 1].ends == order[i].ends) {
-        const PieceEdge& other = edges_[order[i + 1].edge];
-        if (other.plane == edge.plane) {
-          if (other.from == edge.from) broken("two pieces of boundary that overlap");
-          faces_.unite(edge.piece, other.piece);
-          ++i;
-          continue;
+    };
+    sort_in_buckets(order, vertices_.size(), lower_end, less, threads_);
+    const Parts parts(order.size(),
+                      [&](std::size_t i) { return order[i].ends != order[i - 1].ends; });
+    // Those that are left move to the front of their part.
+    std::vector<std::size_t> first_left(parts.count() + 1, 0);
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      check();
+      std::size_t left = begin;
+      for (std::size_t i = begin; i < end; ++i) {
+        const PieceEdge& edge = edges_[order[i].edge];
+        if (i + 1 < end && order[i + 1].ends == order[i].ends) {
+          const PieceEdge& other = edges_[order[i + 1].edge];
+          if (other.plane == edge.plane) {
+            if (other.from == edge.from) broken("two pieces of boundary that overlap");
+            faces_.unite(edge.piece, other.piece);
+            ++i;
+            continue;
+          }
         }
+        order[left++] = order[i];
       }
-      left.push_back(edge);
-    }
+      first_left[part + 1] = left - begin;
+    });
+    std::partial_sum(first_left.begin(), first_left.end(), first_left.begin());
+    std::vector<PieceEdge> left(first_left.back());
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t) {
+      for (std::size_t i = first_left[part]; i < first_left[part + 1]; ++i) {
+        left[i] = edges_[order[begin + (i - first_left[part])].edge];
+      }
+    });
     edges_ = {};
     return left;
   }
@@ -388,45 +449,67 @@ class Merger {
       PlaneRef second;
       std::uint32_t edge;
     };
-    std::vector<Keyed> order;
-    order.reserve(edges.size());
-    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    std::vector<Keyed> order(edges.size());
+    in_parallel_parts(threads_, edges.size(), [&](std::size_t i) {
       const auto [first, second] = std::minmax(edges[i].plane.plane, edges[i].side_plane);
-      order.push_back({first, second, i});
-    }
-    // Walls are rare: they share the last bucket.
-    const std::size_t planes = geometry_.plane_count();
-    const auto first_plane = [planes](const Keyed& keyed) {
-      return keyed.first.is_wall() ? planes : keyed.first.table_index();
+      order[i] = {first, second, static_cast<std::uint32_t>(i)};
+    });
+    // By the first plane, so that neighbours lie side by side, but a plane may have most of the
+    // edges: those of one plane are spread over some buckets by the second plane. Walls are rare
+    // and count as one plane.
+    constexpr unsigned spread_bits = 10;
+    const std::size_t planes = geometry_.plane_count() + 1;
+    const auto bucket_of = [planes, count = edges.size()](const Keyed& keyed) {
+      const std::size_t first = keyed.first.is_wall() ? planes - 1 : keyed.first.table_index();
+      const std::uint64_t hash = keyed.second.bits() * 0x9e3779b97f4a7c15U;
+      return first * count / planes + (hash >> (64U - spread_bits));
     };
-    sort_in_buckets(order, planes + 1, first_plane, [](const Keyed& a, const Keyed& b) {
+    const auto less = [](const Keyed& a, const Keyed& b) {
       if (a.first != b.first) return a.first < b.first;
       if (a.second != b.second) return a.second < b.second;
       return a.edge < b.edge;
+    };
+    sort_in_buckets(order, edges.size() + (std::size_t{1} << spread_bits), bucket_of, less,
+                    threads_);
+    const auto is_first = [&](std::size_t i) {
+      return i == 0 || order[i].first != order[i - 1].first ||
+             order[i].second != order[i - 1].second;
+    };
+    const Parts parts(order.size());
+    std::vector<std::size_t> first_sample(parts.count() + 1, 0);
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      std::size_t count = 0;
+      for (std::size_t i = begin; i < end; ++i) count += is_first(i) ? 1 : 0;
+      first_sample[part + 1] = count;
     });
-    std::vector<LineSample> samples;
+    std::partial_sum(first_sample.begin(), first_sample.end(), first_sample.begin());
+    std::vector<LineSample> samples(first_sample.back());
     std::vector<std::uint32_t> sample_of_edge(edges.size());
-    for (const Keyed& keyed : order) {
-      if (samples.empty() || samples.back().first != keyed.first ||
-          samples.back().second != keyed.second) {
-        const PieceEdge& edge = edges[keyed.edge];
-        samples.push_back({keyed.first, keyed.second, &vertices_[edge.from], &vertices_[edge.to]});
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      std::size_t next = first_sample[part];
+      for (std::size_t i = begin; i < end; ++i) {
+        if (is_first(i)) {
+          const PieceEdge& edge = edges[order[i].edge];
+          samples[next++] = {order[i].first, order[i].second, &vertices_[edge.from],
+                             &vertices_[edge.to]};
+        }
+        sample_of_edge[order[i].edge] = static_cast<std::uint32_t>(next - 1);
       }
-      sample_of_edge[keyed.edge] = static_cast<std::uint32_t>(samples.size() - 1);
-    }
-    InternedLines interned = intern(geometry_, samples, statistics_);
+    });
+    check();
+    InternedLines interned = intern(geometry_, samples, statistics_, threads_);
     lines_ = std::move(interned.distinct);
     // The samples point into vertices_, which may grow.
     for (LineSample& line : lines_) line.from = line.to = nullptr;
     std::vector<LineNumber> result(edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      result[i] = interned.number[sample_of_edge[i]];
-    }
+    in_parallel_parts(threads_, edges.size(),
+                      [&](std::size_t i) { result[i] = interned.number[sample_of_edge[i]]; });
     return result;
   }
 
   // Vertices of one line in the order of their position on it, from either end.
-  void sort_along(LineNumber line, std::vector<VertexNumber>& stations) {
+  void sort_along(LineNumber line, std::vector<VertexNumber>& stations,
+                  TierStatistics& statistics) const {
     std::sort(stations.begin(), stations.end());
     stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
     if (stations.size() <= 2) return;  // as most lines have it
@@ -435,8 +518,8 @@ class Merger {
       if (a == b) return false;
       const Vertex& v = vertices_[a];
       const Vertex& w = vertices_[b];
-      if (axis) return geometry_.compare_coordinate(v, w, *axis, statistics_) == Sign::Negative;
-      return geometry_.compare_position(v, w, statistics_) < 0;
+      if (axis) return geometry_.compare_coordinate(v, w, *axis, statistics) == Sign::Negative;
+      return geometry_.compare_position(v, w, statistics) < 0;
     });
   }
 
@@ -450,41 +533,68 @@ class Merger {
         [&](std::uint32_t a, std::uint32_t b) {
           if (edges[a].plane != edges[b].plane) return edges[a].plane < edges[b].plane;
           return a < b;
-        });
+        },
+        threads_);
     return order;
   }
 
   void add_up(const std::vector<PieceEdge>& edges, const std::vector<LineNumber>& line_of_edge) {
     const std::vector<std::uint32_t> order = edges_by_line(edges, line_of_edge);
     content_.resize(lines_.size());
-    segments_.reserve(edges.size());
-    std::vector<std::uint32_t> rank(vertices_.size(), none);
-    std::vector<VertexNumber> stations;
-    for (std::size_t begin = 0; begin < order.size();) {
-      const LineNumber line = line_of_edge[order[begin]];
-      if (line % 1024 == 0) check();
-      std::size_t end = begin;
-      stations.clear();
-      for (; end < order.size() && line_of_edge[order[end]] == line; ++end) {
-        stations.push_back(edges[order[end]].from);
-        stations.push_back(edges[order[end]].to);
+    const auto line_at = [&](std::size_t i) { return line_of_edge[order[i]]; };
+    const Parts parts(order.size(), [&](std::size_t i) { return line_at(i) != line_at(i - 1); });
+    std::vector<std::vector<Segment>> segments(parts.count());
+    std::vector<TierStatistics> tiers(parts.count());
+    in_parallel(
+        threads_, parts, [&](std::size_t part, std::size_t part_begin, std::size_t part_end) {
+          check();
+          TierStatistics tiers_here;
+          segments[part].reserve(part_end - part_begin);
+          std::vector<std::uint32_t>& rank = ranks();
+          std::vector<VertexNumber> stations;
+          for (std::size_t begin = part_begin; begin < part_end;) {
+            const LineNumber line = line_at(begin);
+            std::size_t end = begin;
+            stations.clear();
+            for (; end < part_end && line_at(end) == line; ++end) {
+              stations.push_back(edges[order[end]].from);
+              stations.push_back(edges[order[end]].to);
+            }
+            sort_along(line, stations, tiers_here);
+            for (std::uint32_t i = 0; i < stations.size(); ++i) rank[stations[i]] = i;
+            content_[line].first_segment = static_cast<std::uint32_t>(segments[part].size());
+            for (std::size_t group = begin; group < end;) {
+              std::size_t group_end = group;
+              while (group_end < end &&
+                     edges[order[group_end]].plane == edges[order[group]].plane) {
+                ++group_end;
+              }
+              add_up_on_plane(edges, std::span(order).subspan(group, group_end - group), stations,
+                              rank, segments[part]);
+              group = group_end;
+            }
+            content_[line].segment_count =
+                static_cast<std::uint32_t>(segments[part].size()) - content_[line].first_segment;
+            begin = end;
+          }
+          tiers[part] = tiers_here;
+        });
+    for (const TierStatistics& part : tiers) statistics_ += part;
+    // Every line has an edge, so that those of one part follow each other.
+    const std::vector<std::size_t> firsts = first_places(segments);
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      for (LineNumber line = line_at(begin); line <= line_at(end - 1); ++line) {
+        content_[line].first_segment += static_cast<std::uint32_t>(firsts[part]);
       }
-      sort_along(line, stations);
-      for (std::uint32_t i = 0; i < stations.size(); ++i) rank[stations[i]] = i;
-      LineContent& content = content_[line];
-      content.first_segment = static_cast<std::uint32_t>(segments_.size());
-      for (std::size_t group = begin; group < end;) {
-        std::size_t group_end = group;
-        while (group_end < end && edges[order[group_end]].plane == edges[order[group]].plane) {
-          ++group_end;
-        }
-        add_up_on_plane(edges, std::span(order).subspan(group, group_end - group), stations, rank,
-                        segments_);
-        group = group_end;
-      }
-      content.segment_count = static_cast<std::uint32_t>(segments_.size()) - content.first_segment;
-      begin = end;
-    }
+    });
+    segments_ = joined(threads_, std::move(segments));
+  }
+
+  // Room for a number of each vertex.
+  std::vector<std::uint32_t>& ranks() {
+    std::vector<std::uint32_t>& result = ranks_.local();
+    result.resize(vertices_.size());
+    return result;
   }
 
   struct Event {
@@ -540,29 +650,46 @@ class Merger {
 
   // A vertex is where segments of two or more lines end.
   void mark_vertices() {
-    is_vertex_.assign(vertices_.size(), false);
-    std::vector<LineNumber> first_line(vertices_.size(), none);
-    for (LineNumber line = 0; line < content_.size(); ++line) {
-      for (const Segment& segment : segments_of(line)) {
-        for (const VertexNumber end : {segment.from, segment.to}) {
-          if (first_line[end] == none) first_line[end] = line;
-          if (first_line[end] != line) is_vertex_[end] = true;
+    is_vertex_.assign(vertices_.size(), 0);
+    std::vector<LineNumber> some_line(vertices_.size(), none);
+    const Parts parts(content_.size());
+    std::vector<std::vector<VertexNumber>> stations(parts.count());
+    std::vector<TierStatistics> tiers(parts.count());
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      TierStatistics tiers_here;
+      std::vector<VertexNumber> on_line;
+      for (auto line = static_cast<LineNumber>(begin); line < end; ++line) {
+        on_line.clear();
+        for (const Segment& segment : segments_of(line)) {
+          for (const VertexNumber vertex : {segment.from, segment.to}) {
+            LineNumber known = none;
+            // Whichever line comes first, the second one marks the vertex.
+            if (!std::atomic_ref(some_line[vertex])
+                     .compare_exchange_strong(known, line, std::memory_order_relaxed) &&
+                known != line) {
+              set_mark(is_vertex_[vertex]);
+            }
+            on_line.push_back(vertex);
+          }
         }
+        sort_along(line, on_line, tiers_here);
+        add_stations(line, on_line, stations[part]);
       }
-    }
+      tiers[part] = tiers_here;
+    });
+    for (const TierStatistics& part : tiers) statistics_ += part;
+    const std::vector<std::size_t> firsts = first_places(stations);
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      for (std::size_t line = begin; line < end; ++line) {
+        content_[line].first_station += static_cast<std::uint32_t>(firsts[part]);
+      }
+    });
+    stations_ = joined(threads_, std::move(stations));
     // The facets on both sides have edges of other directions there.
-    for (const SettledEdge& edge : settled_edges_)
-      is_vertex_[edge.from] = is_vertex_[edge.to] = true;
-    stations_.reserve(2 * segments_.size());
-    std::vector<VertexNumber> stations;
-    for (LineNumber line = 0; line < content_.size(); ++line) {
-      stations.clear();
-      for (const Segment& segment : segments_of(line)) {
-        stations.push_back(segment.from);
-        stations.push_back(segment.to);
-      }
-      set_stations(line, stations);
-    }
+    in_parallel_parts(threads_, settled_edges_.size(), [&](std::size_t i) {
+      set_mark(is_vertex_[settled_edges_[i].from]);
+      set_mark(is_vertex_[settled_edges_[i].to]);
+    });
   }
 
   std::span<const Segment> segments_of(LineNumber line) const {
@@ -573,12 +700,12 @@ class Merger {
     return std::span(stations_).subspan(content_[line].first_station, content_[line].station_count);
   }
 
-  // In any order, also more than once.
-  void set_stations(LineNumber line, std::vector<VertexNumber>& stations) {
-    sort_along(line, stations);
-    content_[line].first_station = static_cast<std::uint32_t>(stations_.size());
+  // Of one line in order, appended to those of others.
+  void add_stations(LineNumber line, const std::vector<VertexNumber>& stations,
+                    std::vector<VertexNumber>& all) {
+    content_[line].first_station = static_cast<std::uint32_t>(all.size());
     content_[line].station_count = static_cast<std::uint32_t>(stations.size());
-    stations_.insert(stations_.end(), stations.begin(), stations.end());
+    all.insert(all.end(), stations.begin(), stations.end());
   }
 
   struct Span {
@@ -591,30 +718,41 @@ class Merger {
   // The parts of a line between neighbouring vertices that some segment covers, and settled edges;
   // only what may be touched.
   std::vector<Span> spans() {
-    std::vector<Span> result;
-    for (LineNumber line = 0; line < content_.size(); ++line) {
-      const auto first = static_cast<std::ptrdiff_t>(result.size());
-      for_each_run(line, [&](const Run& run) {
-        const auto [low, high] = std::minmax(run.from, run.to);
-        result.push_back({line, low, high, run.primitive});
-      });
-      // Any of the primitives will do; `none` sorts last.
-      const auto key = [](const Span& span) {
-        return std::tuple(span.from, span.to, span.primitive);
-      };
-      std::ranges::sort(result.begin() + first, result.end(), {}, key);
-      const auto same_ends = [](const Span& a, const Span& b) {
-        return a.from == b.from && a.to == b.to;
-      };
-      result.erase(std::unique(result.begin() + first, result.end(), same_ends), result.end());
-    }
-    for (std::size_t i = 0; i < settled_edges_.size(); ++i) {
-      const SettledEdge& edge = settled_edges_[i];
-      if (!edge.may_be_touched) continue;
-      result.push_back(
-          {static_cast<LineNumber>(lines_.size() + i), edge.from, edge.to, edge.primitive});
-    }
-    return result;
+    const Parts lines(content_.size());
+    const Parts settled(settled_edges_.size());
+    std::vector<std::vector<Span>> result(lines.count() + settled.count());
+    in_parallel(threads_, lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      std::vector<std::uint32_t>& rank = ranks();
+      for (auto line = static_cast<LineNumber>(begin); line < end; ++line) {
+        add_spans(line, rank, result[part]);
+      }
+    });
+    in_parallel(threads_, settled, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const SettledEdge& edge = settled_edges_[i];
+        if (!edge.may_be_touched) continue;
+        result[lines.count() + part].push_back(
+            {static_cast<LineNumber>(lines_.size() + i), edge.from, edge.to, edge.primitive});
+      }
+    });
+    return joined(threads_, std::move(result));
+  }
+
+  void add_spans(LineNumber line, std::vector<std::uint32_t>& rank, std::vector<Span>& result) {
+    const auto first = static_cast<std::ptrdiff_t>(result.size());
+    for_each_run(line, rank, [&](const Run& run) {
+      const auto [low, high] = std::minmax(run.from, run.to);
+      result.push_back({line, low, high, run.primitive});
+    });
+    // Any of the primitives will do; `none` sorts last.
+    const auto key = [](const Span& span) {
+      return std::tuple(span.from, span.to, span.primitive);
+    };
+    std::ranges::sort(result.begin() + first, result.end(), {}, key);
+    const auto same_ends = [](const Span& a, const Span& b) {
+      return a.from == b.from && a.to == b.to;
+    };
+    result.erase(std::unique(result.begin() + first, result.end(), same_ends), result.end());
   }
 
   bool is_settled(const Span& span) const { return span.line >= lines_.size(); }
@@ -637,16 +775,15 @@ class Merger {
 
   // visit(run)
   template <class Visit>
-  void for_each_run(LineNumber line, Visit visit) {
+  void for_each_run(LineNumber line, std::vector<std::uint32_t>& rank, Visit visit) const {
     const std::span<const Segment> segments = segments_of(line);
     if (segments.empty()) return;
     const std::span<const VertexNumber> stations = stations_of(line);
-    rank_.resize(vertices_.size(), 0);
-    for (std::uint32_t i = 0; i < stations.size(); ++i) rank_[stations[i]] = i;
+    for (std::uint32_t i = 0; i < stations.size(); ++i) rank[stations[i]] = i;
     for (std::size_t begin = 0; begin < segments.size();) {
       std::size_t end = begin;
       while (end < segments.size() && segments[end].plane == segments[begin].plane) ++end;
-      run_along(segments.subspan(begin, end - begin), stations, visit);
+      run_along(segments.subspan(begin, end - begin), stations, rank, visit);
       begin = end;
     }
   }
@@ -654,15 +791,15 @@ class Merger {
   // The segments of one plane are ascending along the line and do not overlap.
   template <class Visit>
   void run_along(std::span<const Segment> segments, std::span<const VertexNumber> stations,
-                 Visit& visit) {
+                 const std::vector<std::uint32_t>& rank, Visit& visit) const {
     std::uint32_t start = none;  // rank where the present run began
     bool forward = true;
     const Segment* owner = nullptr;
     std::uint32_t primitive = none;
     for (const Segment& segment : segments) {
       const std::uint32_t primitive_here = primitive_of_piece_[segment.piece];
-      const auto [low, high] = std::minmax(rank_[segment.from], rank_[segment.to]);
-      const bool goes_forward = rank_[segment.from] < rank_[segment.to];
+      const auto [low, high] = std::minmax(rank[segment.from], rank[segment.to]);
+      const bool goes_forward = rank[segment.from] < rank[segment.to];
       if (is_vertex_[stations[low]]) {
         if (start != none) broken("an edge that does not end at its vertex");
         start = low;
@@ -715,7 +852,8 @@ class Merger {
     for (auto& [line, touching] : touching_) {
       const std::span<const VertexNumber> stations = stations_of(line);
       touching.insert(touching.end(), stations.begin(), stations.end());
-      set_stations(line, touching);
+      sort_along(line, touching, statistics_);
+      add_stations(line, touching, stations_);
     }
     for (auto& [edge, cuts] : cuts_) sort_from(edge[0], edge[1], cuts);
   }
@@ -793,7 +931,7 @@ class Merger {
       }
     }
     if (number == none) number = known_touching_point(point);
-    if (!is_vertex_[number]) is_vertex_[number] = true;
+    is_vertex_[number] = 1;
     add_station(a, number);
     add_station(b, number);
   }
@@ -832,7 +970,7 @@ class Merger {
     }
     const auto number = static_cast<VertexNumber>(vertices_.size());
     vertices_.push_back(point);
-    is_vertex_.push_back(false);
+    is_vertex_.push_back(0);
     added_.push_back(number);
     return number;
   }
@@ -858,10 +996,9 @@ class Merger {
   }
 
   // The loops of settled faces; those with sides that are not settled are left to `edges`.
-  std::vector<SingleFace> single_faces(std::vector<FaceEdge>& edges) {
-    std::vector<SingleFace> result;
-    result.reserve(settled_faces_.size());
-    for (const SettledFace& face : settled_faces_) {
+  void add_single_faces(std::size_t begin, std::size_t end, std::vector<FaceEdge>& edges,
+                        std::vector<SingleFace>& result) const {
+    for (const SettledFace& face : std::span(settled_faces_).subspan(begin, end - begin)) {
       const auto sides = std::span(settled_sides_).subspan(face.first_side, face.side_count);
       const auto for_each_settled_part = [&](const auto& visit) {
         for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -880,61 +1017,98 @@ class Merger {
       for_each_settled_part([&](VertexNumber from, VertexNumber) { loop.push_back(from); });
       result.push_back({face.plane, std::move(loop)});
     }
-    return result;
   }
 
-  // Gives up what is known of lines: their memory is wanted for the result.
-  std::vector<FaceEdge> edges_on_lines() {
+  // Edges of all faces that are no single ones; of these, the first are on lines.
+  struct FaceParts {
     std::vector<FaceEdge> edges;
-    edges.reserve(segments_.size());
-    for (LineNumber line = 0; line < content_.size(); ++line) {
-      for_each_run(line, [&](const Run& run) {
-        edges.push_back({run.owner.plane, faces_.find(run.owner.piece), run.from, run.to});
-      });
-    }
+    std::size_t count_on_lines = 0;
+    std::vector<SingleFace> singles;
+  };
+
+  // Gives up what is known of lines: their memory is wanted for the result.
+  FaceParts face_parts() {
+    const Parts lines(content_.size());
+    const Parts settled(settled_faces_.size());
+    std::vector<std::vector<FaceEdge>> edges(lines.count() + settled.count());
+    std::vector<std::vector<SingleFace>> singles(settled.count());
+    in_parallel(threads_, lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      std::vector<std::uint32_t>& rank = ranks();
+      for (auto line = static_cast<LineNumber>(begin); line < end; ++line) {
+        for_each_run(line, rank, [&](const Run& run) {
+          edges[part].push_back({run.owner.plane, faces_.find(run.owner.piece), run.from, run.to});
+        });
+      }
+    });
     content_ = {};
     segments_ = {};
     stations_ = {};
-    rank_ = {};
     lines_ = {};
     primitive_of_piece_ = {};
-    return edges;
+    in_parallel(threads_, settled, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      add_single_faces(begin, end, edges[lines.count() + part], singles[part]);
+    });
+    settled_faces_ = {};
+    settled_sides_ = {};
+    FaceParts result;
+    result.count_on_lines = first_places(edges)[lines.count()];
+    result.edges = joined(threads_, std::move(edges));
+    result.singles = joined(threads_, std::move(singles));
+    return result;
   }
 
   Boundary assemble() {
-    std::vector<FaceEdge> edges = edges_on_lines();
-    const std::size_t count_on_lines = edges.size();
-    std::vector<SingleFace> singles = single_faces(edges);
+    FaceParts faces = face_parts();
     Boundary boundary;
     const std::vector<VertexNumber> renumbered = set_vertices(boundary);
     vertices_ = {};
     check();
-    boundary.edges.reserve(count_on_lines + settled_edges_.size());
-    const auto add_edge_between = [&](VertexNumber from, VertexNumber to) {
-      const auto [low, high] = std::minmax(renumbered[from], renumbered[to]);
-      boundary.edges.push_back({low, high});
-    };
-    for (std::size_t i = 0; i < count_on_lines; ++i) add_edge_between(edges[i].from, edges[i].to);
-    for (const SettledEdge& edge : settled_edges_) {
-      for_each_part(edge.from, edge.to, add_edge_between);
-    }
-    settled_edges_ = {};
-    for (FaceEdge& edge : edges) {
+    set_edges(faces, renumbered, boundary);
+    in_parallel_parts(threads_, faces.edges.size(), [&](std::size_t i) {
+      FaceEdge& edge = faces.edges[i];
       edge.from = renumbered[edge.from];
       edge.to = renumbered[edge.to];
-    }
-    for (SingleFace& face : singles) {
-      for (VertexNumber& vertex : face.loop) vertex = renumbered[vertex];
-    }
-    sort_in_buckets(
-        boundary.edges, boundary.vertices.size(),
-        [](const BoundaryEdge& edge) { return edge.from; }, std::less<>());
-    boundary.edges.erase(std::unique(boundary.edges.begin(), boundary.edges.end()),
-                         boundary.edges.end());
-    link_faces(geometry_, std::move(edges), std::move(singles), boundary);
+    });
+    in_parallel_parts(threads_, faces.singles.size(), [&](std::size_t i) {
+      for (VertexNumber& vertex : faces.singles[i].loop) vertex = renumbered[vertex];
+    });
+    link_faces(geometry_, std::move(faces.edges), std::move(faces.singles), boundary, threads_);
     boundary.statistics.pieces = statistics_pieces_;
     boundary.statistics.tiers = statistics_;
     return boundary;
+  }
+
+  void set_edges(const FaceParts& faces, const std::vector<VertexNumber>& renumbered,
+                 Boundary& boundary) {
+    const auto edge_between = [&](VertexNumber from, VertexNumber to) {
+      const auto [low, high] = std::minmax(renumbered[from], renumbered[to]);
+      return BoundaryEdge{low, high};
+    };
+    const Parts on_lines(faces.count_on_lines);
+    const Parts settled(settled_edges_.size());
+    std::vector<std::vector<BoundaryEdge>> edges(on_lines.count() + settled.count());
+    in_parallel(threads_, on_lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      edges[part].reserve(end - begin);
+      for (std::size_t i = begin; i < end; ++i) {
+        edges[part].push_back(edge_between(faces.edges[i].from, faces.edges[i].to));
+      }
+    });
+    in_parallel(threads_, settled, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      std::vector<BoundaryEdge>& result = edges[on_lines.count() + part];
+      result.reserve(end - begin);
+      for (std::size_t i = begin; i < end; ++i) {
+        for_each_part(
+            settled_edges_[i].from, settled_edges_[i].to,
+            [&](VertexNumber from, VertexNumber to) { result.push_back(edge_between(from, to)); });
+      }
+    });
+    settled_edges_ = {};
+    boundary.edges = joined(threads_, std::move(edges));
+    sort_in_buckets(
+        boundary.edges, boundary.vertices.size(),
+        [](const BoundaryEdge& edge) { return edge.from; }, std::less<>(), threads_);
+    boundary.edges.erase(std::unique(boundary.edges.begin(), boundary.edges.end()),
+                         boundary.edges.end());
   }
 
   // Meeting points, which take long to compute, are put into `computed`.
@@ -974,7 +1148,7 @@ class Merger {
     }
     std::vector<Point3> computed;
     std::vector<Position> positions = positions_of(used, computed);
-    sort_lexicographically(positions);
+    sort_lexicographically(positions, threads_);
     std::vector<VertexNumber> renumbered(vertices_.size(), none);
     boundary.vertices.reserve(positions.size());
     boundary.approximate.reserve(positions.size());
@@ -1011,8 +1185,8 @@ class Merger {
   std::vector<LineContent> content_;  // by line
   std::vector<Segment> segments_;     // of all lines
   std::vector<VertexNumber> stations_;
-  std::vector<bool> is_vertex_;
-  std::vector<std::uint32_t> rank_;
+  std::vector<unsigned char> is_vertex_;
+  PerThread<std::vector<std::uint32_t>> ranks_{[] { return std::vector<std::uint32_t>(); }};
   bool touch_index_built_ = false;
   std::vector<VertexNumber> by_x_;
   std::vector<VertexNumber> added_;

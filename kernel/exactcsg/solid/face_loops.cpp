@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -130,39 +131,59 @@ void number_planes_by_first_face(std::uint32_t planes, std::vector<BoundaryFace>
 }  // namespace
 
 void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges,
-                std::vector<SingleFace> singles, Boundary& boundary) {
+                std::vector<SingleFace> singles, Boundary& boundary, unsigned threads) {
   // No face lies in a wall.
   sort_in_buckets(
       edges, geometry.plane_count(),
       [](const FaceEdge& edge) { return edge.plane.plane.table_index(); },
       [](const FaceEdge& a, const FaceEdge& b) {
         return std::tie(a.plane, a.face) < std::tie(b.plane, b.face);
-      });
-  std::vector<BoundaryFace> faces;
-  std::uint32_t planes = 0;
-  for (std::size_t begin = 0; begin < edges.size();) {
-    std::size_t end = begin;
-    while (end < edges.size() && edges[end].plane == edges[begin].plane &&
-           edges[end].face == edges[begin].face) {
-      ++end;
+      },
+      threads);
+  const auto is_new_plane = [&](std::size_t i) {
+    return i == 0 || edges[i].plane != edges[i - 1].plane;
+  };
+  const auto is_new_face = [&](std::size_t i) {
+    return is_new_plane(i) || edges[i].face != edges[i - 1].face;
+  };
+  const Parts linked(edges.size(), is_new_face);
+  const Parts single(singles.size());
+  std::vector<std::vector<BoundaryFace>> faces(linked.count() + single.count());
+  // How many planes begin in each part, then before it.
+  std::vector<std::uint32_t> planes(linked.count() + 1, 0);
+  in_parallel(threads, linked, [&](std::size_t part, std::size_t part_begin, std::size_t part_end) {
+    std::uint32_t begun = 0;
+    for (std::size_t i = part_begin; i < part_end; ++i) begun += is_new_plane(i) ? 1 : 0;
+    planes[part + 1] = begun;
+  });
+  std::partial_sum(planes.begin(), planes.end(), planes.begin());
+  in_parallel(threads, linked, [&](std::size_t part, std::size_t part_begin, std::size_t part_end) {
+    std::uint32_t begun = planes[part];
+    for (std::size_t begin = part_begin; begin < part_end;) {
+      std::size_t end = begin + 1;
+      while (end < part_end && !is_new_face(end)) ++end;
+      if (is_new_plane(begin)) ++begun;
+      LoopLinker linker(geometry, boundary.vertices, std::span(edges).subspan(begin, end - begin));
+      faces[part].push_back({begun - 1, linker.link()});
+      begin = end;
     }
-    if (begin == 0 || edges[begin].plane != edges[begin - 1].plane) ++planes;
-    LoopLinker linker(geometry, boundary.vertices, std::span(edges).subspan(begin, end - begin));
-    faces.push_back({planes - 1, linker.link()});
-    begin = end;
-  }
-  for (SingleFace& face : singles) {
-    start_at_smallest(face.loop);
-    faces.push_back({planes++, {}});
-    faces.back().loops.push_back(std::move(face.loop));
-  }
+  });
+  in_parallel(threads, single, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::vector<BoundaryFace>& result = faces[linked.count() + part];
+    result.reserve(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      start_at_smallest(singles[i].loop);
+      result.push_back({planes.back() + static_cast<std::uint32_t>(i), {}});
+      result.back().loops.push_back(std::move(singles[i].loop));
+    }
+  });
+  boundary.faces = joined(threads, std::move(faces));
+  boundary.plane_count = planes.back() + static_cast<std::uint32_t>(singles.size());
   sort_in_buckets(
-      faces, boundary.vertices.size(),
+      boundary.faces, boundary.vertices.size(),
       [](const BoundaryFace& face) { return face.loops.front().front(); },
-      [](const BoundaryFace& a, const BoundaryFace& b) { return a.loops < b.loops; });
-  number_planes_by_first_face(planes, faces);
-  boundary.faces = std::move(faces);
-  boundary.plane_count = planes;
+      [](const BoundaryFace& a, const BoundaryFace& b) { return a.loops < b.loops; }, threads);
+  number_planes_by_first_face(boundary.plane_count, boundary.faces);
 }
 
 }  // namespace exactcsg

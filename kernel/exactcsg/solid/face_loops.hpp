@@ -30,6 +30,6 @@ struct SingleFace {
 // single face. REQUIRES boundary.vertices and approximate are set. THROWS Error(InternalError) if
 // edges do not balance at some vertex of a face.
 void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges,
-                std::vector<SingleFace> singles, Boundary& boundary);
+                std::vector<SingleFace> singles, Boundary& boundary, unsigned threads = 1);
 
 }  // namespace exactcsg

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// A loop whose rounds do not depend on each other, run on one or several threads.
+// Loops whose rounds do not depend on each other, run on one or several threads.
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include "exactcsg/skeleton/hand_over.hpp"
 
 namespace exactcsg {
 
@@ -16,15 +20,93 @@ namespace exactcsg {
 // An exception of a round is thrown on.
 template <class Round>
 void in_parallel(unsigned threads, std::size_t count, const Round& round) {
-  if (threads == 1) {
+  if (threads == 1 || count <= 1) {
     for (std::size_t i = 0; i < count; ++i) round(i);
     return;
   }
+  using namespace skeleton::detail;
   const std::size_t allowed =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   const std::size_t used = threads == 0 ? allowed : std::min<std::size_t>(threads, allowed);
   tbb::task_arena arena(static_cast<int>(used));
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, round); });
+  hand_over(&arena);
+  const TakeOverAtEnd before_unwinding(&used);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      take_over(&arena);
+      const HandOverAtEnd done(&used);
+      round(i);
+    });
+  });
+}
+
+// A long sequence in parts, which do not depend on the number of threads: what is found for each
+// part and joined in their order does not either.
+class Parts {
+ public:
+  // Parts that are long enough to be worth a task, and short enough to keep many threads busy.
+  explicit Parts(std::size_t count) : Parts(count, [](std::size_t) { return true; }) {}
+
+  // A part begins only where may_begin(i), as it does at 0.
+  template <class MayBegin>
+  Parts(std::size_t count, const MayBegin& may_begin) {
+    const std::size_t size = std::max(least_size, (count + most_parts - 1) / most_parts);
+    bounds_.push_back(0);
+    while (bounds_.back() < count) {
+      std::size_t end = std::min(bounds_.back() + size, count);
+      while (end < count && !may_begin(end)) ++end;
+      bounds_.push_back(end);
+    }
+  }
+
+  // Where each part begins, and the end of the last one. Parts may be empty.
+  explicit Parts(std::vector<std::size_t> bounds) : bounds_(std::move(bounds)) {}
+
+  std::size_t count() const { return bounds_.size() - 1; }
+  std::size_t begin(std::size_t part) const { return bounds_[part]; }
+  std::size_t end(std::size_t part) const { return bounds_[part + 1]; }
+
+ private:
+  static constexpr std::size_t least_size = 2048;
+  static constexpr std::size_t most_parts = 128;
+  std::vector<std::size_t> bounds_;
+};
+
+// visit(part, begin, end) for every part.
+template <class Visit>
+void in_parallel(unsigned threads, const Parts& parts, const Visit& visit) {
+  in_parallel(threads, parts.count(),
+              [&](std::size_t part) { visit(part, parts.begin(part), parts.end(part)); });
+}
+
+// round(i) for every i below count, many of which are done at once: for short rounds.
+template <class Round>
+void in_parallel_parts(unsigned threads, std::size_t count, const Round& round) {
+  in_parallel(threads, Parts(count), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) round(i);
+  });
+}
+
+// Where each of several lists begins when they are joined, and the length of all.
+template <class Lists>
+std::vector<std::size_t> first_places(const Lists& lists) {
+  std::vector<std::size_t> result{0};
+  result.reserve(lists.size() + 1);
+  for (const auto& list : lists) result.push_back(result.back() + list.size());
+  return result;
+}
+
+template <class Item>
+std::vector<Item> joined(unsigned threads, std::vector<std::vector<Item>> lists) {
+  if (lists.size() == 1) return std::move(lists.front());
+  const std::vector<std::size_t> places = first_places(lists);
+  std::vector<Item> result(places.back());
+  in_parallel(threads, lists.size(), [&](std::size_t i) {
+    std::move(lists[i].begin(), lists[i].end(),
+              result.begin() + static_cast<std::ptrdiff_t>(places[i]));
+    lists[i] = {};
+  });
+  return result;
 }
 
 }  // namespace exactcsg

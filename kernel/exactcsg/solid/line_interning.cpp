@@ -67,26 +67,42 @@ bool lies_on(const Geometry& geometry, const LineSample& sample, const LineSampl
 }  // namespace
 
 InternedLines intern(const Geometry& geometry, std::span<const LineSample> samples,
-                     TierStatistics& statistics) {
+                     TierStatistics& statistics, unsigned threads) {
   InternedLines result;
   result.number.resize(samples.size());
-  std::vector<KeyInterval> keys;
-  keys.reserve(samples.size());
-  for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    keys.push_back(key_of(geometry, samples[i], i));
-  }
-  for_each_cluster(keys, [&](std::span<const KeyInterval> cluster) {
-    const std::size_t first = result.distinct.size();
-    for (const KeyInterval& key : cluster) {
-      const auto known =
-          std::find_if(result.distinct.begin() + static_cast<std::ptrdiff_t>(first),
-                       result.distinct.end(), [&](const LineSample& line) {
-                         return lies_on(geometry, samples[key.item], line, statistics);
-                       });
-      result.number[key.item] = static_cast<std::uint32_t>(known - result.distinct.begin());
-      if (known == result.distinct.end()) result.distinct.push_back(samples[key.item]);
-    }
+  std::vector<KeyInterval> keys(samples.size());
+  in_parallel_parts(threads, samples.size(), [&](std::size_t i) {
+    keys[i] = key_of(geometry, samples[i], static_cast<std::uint32_t>(i));
   });
+  const Clusters clusters(std::move(keys), threads);
+  const Parts& parts = clusters.parts();
+  // By part, and numbered from 0 in each.
+  std::vector<std::vector<LineSample>> distinct(parts.count());
+  std::vector<TierStatistics> tiers(parts.count());
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::vector<LineSample>& lines = distinct[part];
+    lines.reserve(end - begin);
+    TierStatistics tiers_here;
+    clusters.for_each(part, [&](std::span<const KeyInterval> cluster) {
+      const auto first = static_cast<std::ptrdiff_t>(lines.size());
+      for (const KeyInterval& key : cluster) {
+        const auto known =
+            std::find_if(lines.begin() + first, lines.end(), [&](const LineSample& line) {
+              return lies_on(geometry, samples[key.item], line, tiers_here);
+            });
+        result.number[key.item] = static_cast<std::uint32_t>(known - lines.begin());
+        if (known == lines.end()) lines.push_back(samples[key.item]);
+      }
+    });
+    tiers[part] = tiers_here;
+  });
+  for (const TierStatistics& part : tiers) statistics += part;
+  const std::vector<std::size_t> firsts = first_places(distinct);
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t, std::size_t) {
+    const auto first = static_cast<std::uint32_t>(firsts[part]);
+    for (const KeyInterval& key : clusters.part(part)) result.number[key.item] += first;
+  });
+  result.distinct = joined(threads, std::move(distinct));
   return result;
 }
 

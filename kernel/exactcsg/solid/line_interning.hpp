@@ -28,7 +28,7 @@ struct InternedLines {
 // LAW lines.1  number[i] == number[j] iff samples i and j lie on one line.
 // COST: O(n log n) doubles; exact only where certified keys overlap.
 InternedLines intern(const Geometry& geometry, std::span<const LineSample> samples,
-                     TierStatistics& statistics);
+                     TierStatistics& statistics, unsigned threads = 1);
 
 // An axis along which positions on the line certainly differ; nullopt where doubles cannot tell.
 std::optional<Axis> axis_along(const Geometry& geometry, const LineSample& line);

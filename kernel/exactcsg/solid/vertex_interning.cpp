@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "exactcsg/solid/bucket_sort.hpp"
 
 namespace exactcsg {
 
@@ -33,58 +36,175 @@ KeyInterval key_of(const Vertex& v, std::uint32_t item) {
   return {key - spread, key + spread, item};
 }
 
-}  // namespace
-
-InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices,
-                        TierStatistics& statistics) {
-  const auto meeting_points = static_cast<std::uint32_t>(vertices.meeting_points.size());
-  InternedVertices result;
-  result.number_of_meeting_point.resize(meeting_points);
-  result.number_of_point.resize(vertices.has_point.size());
-  // Items below `meeting_points` are these, the others are points.
-  std::vector<KeyInterval> keys;
-  const auto occurring = [](const auto& items, auto absent) {
-    return items.size() - static_cast<std::size_t>(std::count(items.begin(), items.end(), absent));
-  };
-  keys.reserve(occurring(vertices.meeting_points, nullptr) + occurring(vertices.has_point, false));
-  for (std::uint32_t i = 0; i < meeting_points; ++i) {
-    if (vertices.meeting_points[i] != nullptr)
-      keys.push_back(key_of(*vertices.meeting_points[i], i));
-  }
-  for (std::uint32_t id = 0; id < vertices.has_point.size(); ++id) {
-    if (!vertices.has_point[id]) continue;
-    keys.push_back(key_of(geometry.vertex(PointId{id}), meeting_points + id));
-  }
-  result.distinct.reserve(keys.size());
-  for_each_cluster(keys, [&](std::span<const KeyInterval> cluster) {
-    const std::size_t first = result.distinct.size();
-    for (const KeyInterval& key : cluster) {
-      const bool is_point = key.item >= meeting_points;
-      const Vertex vertex = is_point ? geometry.vertex(PointId{key.item - meeting_points})
-                                     : *vertices.meeting_points[key.item];
-      const auto find = [&](auto same) {
-        return std::find_if(result.distinct.begin() + static_cast<std::ptrdiff_t>(first),
-                            result.distinct.end(), same);
-      };
-      auto known = find([&](const Vertex& other) { return same_representation(vertex, other); });
-      if (known == result.distinct.end()) {
-        known = find([&](const Vertex& other) {
-          return may_coincide(vertex, other) && geometry.same_position(vertex, other, statistics);
-        });
-      }
-      const auto number = static_cast<std::uint32_t>(known - result.distinct.begin());
-      if (is_point) {
-        result.number_of_point[key.item - meeting_points] = number;
-      } else {
-        result.number_of_meeting_point[key.item] = number;
-      }
-      if (known == result.distinct.end()) {
-        result.distinct.push_back(vertex);
-      } else if (is_point && !known->is_point) {
-        *known = vertex;
-      }
+std::vector<KeyInterval> sorted_by_lower_ends(std::vector<KeyInterval> intervals,
+                                              unsigned threads) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  in_parallel_parts(threads, intervals.size(), [&](std::size_t i) {
+    KeyInterval& interval = intervals[i];
+    if (!(interval.lower > -infinity && interval.upper < infinity)) {
+      interval.lower = -infinity;
+      interval.upper = infinity;
     }
   });
+  const auto lower_end = [](const KeyInterval& interval) { return interval.lower; };
+  const DoubleBuckets buckets(intervals, lower_end, threads);
+  sort_in_buckets(
+      intervals, buckets.count(),
+      [&](const KeyInterval& interval) { return buckets.of(interval.lower); },
+      [](const KeyInterval& a, const KeyInterval& b) {
+        return a.lower < b.lower || (a.lower == b.lower && a.item < b.item);
+      },
+      threads);
+  return intervals;
+}
+
+// All vertices of pieces in one row: meeting points, then input points.
+class Items {
+ public:
+  Items(const Geometry& geometry, const CornerVertices& vertices)
+      : geometry_(geometry),
+        vertices_(vertices),
+        meeting_points_(static_cast<std::uint32_t>(vertices.meeting_points.size())) {}
+
+  std::size_t count() const { return meeting_points_ + vertices_.has_point.size(); }
+  bool is_point(std::uint32_t item) const { return item >= meeting_points_; }
+  std::uint32_t id(std::uint32_t item) const { return item - meeting_points_; }
+  bool occurs(std::uint32_t item) const {
+    return is_point(item) ? vertices_.has_point[id(item)] != 0
+                          : vertices_.meeting_points[item] != nullptr;
+  }
+  Vertex vertex(std::uint32_t item) const {
+    return is_point(item) ? geometry_.vertex(PointId{id(item)}) : *vertices_.meeting_points[item];
+  }
+
+ private:
+  const Geometry& geometry_;
+  const CornerVertices& vertices_;
+  std::uint32_t meeting_points_;
+};
+
+std::vector<KeyInterval> keys_of(const Items& items, unsigned threads) {
+  const Parts parts(items.count());
+  std::vector<std::vector<KeyInterval>> keys(parts.count());
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    keys[part].reserve(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto item = static_cast<std::uint32_t>(i);
+      if (items.occurs(item)) keys[part].push_back(key_of(items.vertex(item), item));
+    }
+  });
+  return joined(threads, std::move(keys));
+}
+
+// The distinct ones among the vertices of one cluster.
+class ClusterVertices {
+ public:
+  ClusterVertices(const Geometry& geometry, TierStatistics& statistics)
+      : geometry_(geometry), statistics_(statistics) {}
+
+  void clear() { distinct_.clear(); }
+
+  // Its place among the distinct ones; of equals, an input point stays.
+  std::size_t place_of(const Vertex& vertex) {
+    const auto find = [&](auto same) {
+      return std::find_if(distinct_.begin(), distinct_.end(), same);
+    };
+    auto known = find([&](const Vertex& other) { return same_representation(vertex, other); });
+    if (known == distinct_.end()) {
+      known = find([&](const Vertex& other) {
+        return may_coincide(vertex, other) && geometry_.same_position(vertex, other, statistics_);
+      });
+    }
+    const auto place = static_cast<std::size_t>(known - distinct_.begin());
+    if (known == distinct_.end()) {
+      distinct_.push_back(vertex);
+    } else if (vertex.is_point && !known->is_point) {
+      *known = vertex;
+    }
+    return place;
+  }
+
+  const std::vector<Vertex>& distinct() const { return distinct_; }
+
+ private:
+  const Geometry& geometry_;
+  TierStatistics& statistics_;
+  std::vector<Vertex> distinct_;
+};
+
+}  // namespace
+
+Clusters::Clusters(std::vector<KeyInterval> intervals, unsigned threads)
+    : intervals_(sorted_by_lower_ends(std::move(intervals), threads)),
+      parts_(parts_of_sorted(threads)) {}
+
+// Each part moved to where its first cluster begins.
+Parts Clusters::parts_of_sorted(unsigned threads) const {
+  const Parts even(intervals_.size());
+  // The farthest upper end before each part.
+  std::vector<double> reach(even.count(), -std::numeric_limits<double>::infinity());
+  in_parallel(threads, even, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    if (part + 1 == even.count()) return;
+    for (std::size_t i = begin; i < end; ++i) {
+      reach[part + 1] = std::max(reach[part + 1], intervals_[i].upper);
+    }
+  });
+  std::partial_sum(reach.begin(), reach.end(), reach.begin(),
+                   [](double a, double b) { return std::max(a, b); });
+  std::vector<std::size_t> bounds{intervals_.size()};
+  for (std::size_t part = even.count(); part-- > 0;) {
+    double farthest = reach[part];
+    std::size_t begin = even.begin(part);
+    while (part > 0 && begin < even.end(part) && intervals_[begin].lower <= farthest) {
+      farthest = std::max(farthest, intervals_[begin].upper);
+      ++begin;
+    }
+    // No cluster begins here: the part is empty.
+    bounds.push_back(part > 0 && begin == even.end(part) ? bounds.back() : begin);
+  }
+  std::reverse(bounds.begin(), bounds.end());
+  return Parts(std::move(bounds));
+}
+
+InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices,
+                        TierStatistics& statistics, unsigned threads) {
+  const Items items(geometry, vertices);
+  InternedVertices result;
+  result.number_of_meeting_point.resize(vertices.meeting_points.size());
+  result.number_of_point.resize(vertices.has_point.size());
+  const auto number_of = [&](std::uint32_t item) -> std::uint32_t& {
+    return items.is_point(item) ? result.number_of_point[items.id(item)]
+                                : result.number_of_meeting_point[item];
+  };
+  const Clusters clusters(keys_of(items, threads), threads);
+  const Parts& parts = clusters.parts();
+  // By part, and numbered from 0 in each.
+  std::vector<std::vector<Vertex>> distinct(parts.count());
+  std::vector<TierStatistics> tiers(parts.count());
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    distinct[part].reserve(end - begin);
+    TierStatistics tiers_here;
+    ClusterVertices cluster_vertices(geometry, tiers_here);
+    clusters.for_each(part, [&](std::span<const KeyInterval> cluster) {
+      const std::size_t first = distinct[part].size();
+      cluster_vertices.clear();
+      for (const KeyInterval& key : cluster) {
+        const std::size_t place = cluster_vertices.place_of(items.vertex(key.item));
+        number_of(key.item) = static_cast<std::uint32_t>(first + place);
+      }
+      distinct[part].insert(distinct[part].end(), cluster_vertices.distinct().begin(),
+                            cluster_vertices.distinct().end());
+    });
+    tiers[part] = tiers_here;
+  });
+  for (const TierStatistics& part : tiers) statistics += part;
+  const std::vector<std::size_t> firsts = first_places(distinct);
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t, std::size_t) {
+    const auto first = static_cast<std::uint32_t>(firsts[part]);
+    if (first == 0) return;
+    for (const KeyInterval& key : clusters.part(part)) number_of(key.item) += first;
+  });
+  result.distinct = joined(threads, std::move(distinct));
   return result;
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "exactcsg/number/geometry.hpp"
-#include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/solid/in_parallel.hpp"
 
 namespace exactcsg {
 
@@ -21,41 +21,46 @@ struct KeyInterval {
   std::uint32_t item = 0;
 };
 
-// Sorts by lower ends and calls visit(span of intervals) for each maximal run that is connected by
-// overlaps. Intervals that are not finite form a run with everything.
-template <class Visit>
-void for_each_cluster(std::vector<KeyInterval>& intervals, Visit visit) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (KeyInterval& interval : intervals) {
-    if (!(interval.lower > -infinity && interval.upper < infinity)) {
-      interval.lower = -infinity;
-      interval.upper = infinity;
+// The maximal runs of intervals that are connected by overlaps, each sorted by lower ends.
+// Intervals that are not finite form a run with everything.
+class Clusters {
+ public:
+  Clusters(std::vector<KeyInterval> intervals, unsigned threads);
+
+  // Of the intervals; every cluster lies in one part.
+  const Parts& parts() const { return parts_; }
+  std::span<const KeyInterval> part(std::size_t number) const {
+    return std::span(intervals_)
+        .subspan(parts_.begin(number), parts_.end(number) - parts_.begin(number));
+  }
+
+  // visit(span of intervals) for each cluster of a part, in order.
+  template <class Visit>
+  void for_each(std::size_t number, Visit visit) const {
+    const std::span<const KeyInterval> intervals = part(number);
+    for (std::size_t begin = 0; begin < intervals.size();) {
+      double reach = intervals[begin].upper;
+      std::size_t end = begin + 1;
+      while (end < intervals.size() && intervals[end].lower <= reach) {
+        reach = std::max(reach, intervals[end].upper);
+        ++end;
+      }
+      visit(intervals.subspan(begin, end - begin));
+      begin = end;
     }
   }
-  const DoubleBuckets buckets(intervals,
-                              [](const KeyInterval& interval) { return interval.lower; });
-  sort_in_buckets(
-      intervals, buckets.count(),
-      [&](const KeyInterval& interval) { return buckets.of(interval.lower); },
-      [](const KeyInterval& a, const KeyInterval& b) {
-        return a.lower < b.lower || (a.lower == b.lower && a.item < b.item);
-      });
-  for (std::size_t begin = 0; begin < intervals.size();) {
-    double reach = intervals[begin].upper;
-    std::size_t end = begin + 1;
-    while (end < intervals.size() && intervals[end].lower <= reach) {
-      reach = std::max(reach, intervals[end].upper);
-      ++end;
-    }
-    visit(std::span(intervals).subspan(begin, end - begin));
-    begin = end;
-  }
-}
+
+ private:
+  Parts parts_of_sorted(unsigned threads) const;
+
+  std::vector<KeyInterval> intervals_;
+  Parts parts_;
+};
 
 // Corners of pieces: meeting points, some of them more than once, and input points by id.
 struct CornerVertices {
   std::vector<const Vertex*> meeting_points;  // null: one that does not occur
-  std::vector<bool> has_point;                // by id, of all points of the geometry
+  std::vector<unsigned char> has_point;       // by id, of all points of the geometry
 };
 
 struct InternedVertices {
@@ -67,6 +72,6 @@ struct InternedVertices {
 // LAW interning.1  two numbers are equal iff the exact positions are.
 // COST: O(n log n) doubles; exact only where certified positions overlap.
 InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices,
-                        TierStatistics& statistics);
+                        TierStatistics& statistics, unsigned threads = 1);
 
 }  // namespace exactcsg

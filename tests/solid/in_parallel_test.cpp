@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Expected: what the same loop does on one thread.
+#include "exactcsg/solid/in_parallel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <numeric>
+#include <stdexcept>
+
+namespace exactcsg {
+namespace {
+
+TEST(InParallel, EveryRoundIsRunOnce) {
+  for (const unsigned threads : {1U, 2U, 0U}) {
+    std::vector<std::atomic<int>> runs(5000);
+    in_parallel(threads, runs.size(), [&](std::size_t i) { ++runs[i]; });
+    for (const auto& count : runs) EXPECT_EQ(count, 1);
+    in_parallel_parts(threads, runs.size(), [&](std::size_t i) { ++runs[i]; });
+    for (const auto& count : runs) EXPECT_EQ(count, 2);
+    in_parallel(threads, 0, [](std::size_t) { FAIL(); });
+    in_parallel_parts(threads, 0, [](std::size_t) { FAIL(); });
+  }
+}
+
+TEST(InParallel, AnExceptionIsThrownOn) {
+  for (const unsigned threads : {1U, 2U, 0U}) {
+    EXPECT_THROW(in_parallel(threads, 100,
+                             [](std::size_t i) {
+                               if (i == 70) throw std::runtime_error("round 70");
+                             }),
+                 std::runtime_error);
+  }
+}
+
+TEST(Parts, CoverASequenceInOrder) {
+  for (const std::size_t count : {0U, 1U, 2047U, 2048U, 2049U, 10000U, 1000003U}) {
+    const Parts parts(count);
+    std::size_t end = 0;
+    for (std::size_t part = 0; part < parts.count(); ++part) {
+      EXPECT_EQ(parts.begin(part), end);
+      EXPECT_LT(end, parts.end(part));
+      end = parts.end(part);
+    }
+    EXPECT_EQ(end, count);
+  }
+}
+
+TEST(Parts, BeginOnlyWhereTheyMay) {
+  for (const std::size_t run : {3U, 1000U, 60000U}) {
+    const Parts parts(100000, [&](std::size_t i) { return i % run == 0; });
+    for (std::size_t part = 0; part < parts.count(); ++part) {
+      EXPECT_EQ(parts.begin(part) % run, 0U);
+    }
+    EXPECT_EQ(parts.end(parts.count() - 1), 100000U);
+  }
+}
+
+TEST(Joined, KeepsTheOrder) {
+  for (const unsigned threads : {1U, 2U, 0U}) {
+    std::vector<std::vector<int>> lists(50);
+    int next = 0;
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+      for (std::size_t k = 0; k < i % 4 * 100; ++k) lists[i].push_back(next++);
+    }
+    std::vector<int> expected(static_cast<std::size_t>(next));
+    std::iota(expected.begin(), expected.end(), 0);
+    EXPECT_EQ(joined(threads, lists), expected);
+    EXPECT_TRUE(joined(threads, std::vector<std::vector<int>>{}).empty());
+  }
+}
+
+}  // namespace
+}  // namespace exactcsg
