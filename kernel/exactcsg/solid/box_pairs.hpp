@@ -2,14 +2,17 @@
 #pragma once
 
 // All pairs of boxes that meet, by a hierarchy of bounding boxes. [Exact on the doubles given]
+//
+// The boxes are sorted by the places of their centres along Hilbert's curve, in which what is near
+// in space is mostly near in the order. Of the hierarchy nothing but its boxes is stored: a leaf is
+// a few boxes in a row, and every other node is two nodes in a row.
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <optional>
+#include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace exactcsg {
@@ -35,169 +38,152 @@ struct DoubleBox {
   }
 };
 
+// The numbers of the boxes in the order of Hilbert's curve through their centres. Bounds may be
+// infinite; boxes without a finite centre come last. COST: O(n) if the centres are spread over
+// about a thousandth of their extent, and as much again for each thousandth part in which many lie
+std::vector<std::uint32_t> order_along_curve(std::span<const DoubleBox> boxes);
+
 class BoxHierarchy {
  public:
-  // COST: O(n log n)
-  explicit BoxHierarchy(std::span<const DoubleBox> boxes) : boxes_(boxes), order_(boxes.size()) {
-    std::iota(order_.begin(), order_.end(), 0U);
-    if (!boxes.empty()) build(0, static_cast<std::uint32_t>(boxes.size()));
-    ordered_.reserve(boxes.size());
-    for (const std::uint32_t i : order_) ordered_.push_back(boxes[i]);
-  }
+  // The boxes are copied. COST: that of order_along_curve
+  explicit BoxHierarchy(std::span<const DoubleBox> boxes) : BoxHierarchy(boxes, {}) {}
 
-  // visit(i, j) once for each pair of different boxes that meet.
+  // Only pairs of boxes of different groups are wanted. REQUIRES a group for each box, none of them
+  // 2^32 - 1; or none at all: every box is a group of its own
+  BoxHierarchy(std::span<const DoubleBox> boxes, std::span<const std::uint32_t> groups);
+
+  // visit(i, j) once for each pair of different boxes that meet and are wanted, in an order that
+  // depends on the boxes alone.
   // COST: expected O((n + pairs) log n)
   template <class Visit>
   void for_each_pair(Visit visit) const {
-    std::vector<std::array<std::uint32_t, 2>> stack;
-    if (!nodes_.empty()) stack.push_back({0, 0});
-    while (!stack.empty()) {
-      const auto [a, b] = stack.back();
-      stack.pop_back();
-      if (a != b && !meet(nodes_[a].box, nodes_[b].box)) continue;
-      const Node& m = nodes_[a];
-      const Node& n = nodes_[b];
-      if (m.second == 0 && n.second == 0) {
-        visit_leaves(m, n, a == b, visit);
-      } else if (a == b) {
-        stack.push_back({a + 1, a + 1});
-        stack.push_back({m.second, m.second});
-        stack.push_back({a + 1, m.second});
-      } else if (n.second == 0 || (m.second != 0 && m.end - m.begin >= n.end - n.begin)) {
-        stack.push_back({a + 1, b});
-        stack.push_back({m.second, b});
-      } else {
-        stack.push_back({a, b + 1});
-        stack.push_back({a, n.second});
-      }
-    }
+    if (!boxes_.empty()) visit_pairs_within(top_level(), 0, visit);
   }
 
   // visit(i) for each box that meets the query.
   template <class Visit>
   void for_each_meeting(const DoubleBox& query, Visit visit) const {
-    // The depth is the logarithm of the number of boxes, and one of two children waits at each.
-    std::array<std::uint32_t, 64> stack;
-    std::size_t waiting = nodes_.empty() ? 0 : 1;
-    stack[0] = 0;
-    while (waiting > 0) {
-      const std::uint32_t a = stack[--waiting];
-      const Node& n = nodes_[a];
-      if (!meet(n.box, query)) continue;
-      if (n.second != 0) {
-        stack[waiting++] = a + 1;
-        stack[waiting++] = n.second;
-        continue;
-      }
-      for (std::uint32_t k = n.begin; k < n.end; ++k) {
-        if (meet(ordered_[k], query)) visit(order_[k]);
-      }
+    if (!boxes_.empty() && meet(nodes_.back(), query)) {
+      visit_meeting(top_level(), 0, query, visit);
     }
   }
 
  private:
-  static constexpr std::uint32_t leaf_size = 4;
+  static constexpr std::size_t leaf_size = 4;
+  static constexpr std::uint32_t several_groups = std::numeric_limits<std::uint32_t>::max();
 
-  // The first child of node a is a + 1.
-  struct Node {
-    DoubleBox box;
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;
-    std::uint32_t second = 0;  // the second child; 0: a leaf
-  };
+  // Node i of a level has the nodes 2 i and 2 i + 1 of the level below, the last one perhaps only
+  // the first of them; leaf i has the boxes leaf_size * i and so on. Level 0 is that of the leaves.
+  std::size_t top_level() const { return level_begins_.size() - 2; }
+  std::size_t level_size(std::size_t level) const {
+    return level_begins_[level + 1] - level_begins_[level];
+  }
+  const DoubleBox* level_boxes(std::size_t level) const {
+    return nodes_.data() + level_begins_[level];
+  }
+  std::uint32_t group_of(std::size_t level, std::size_t node) const {
+    return node_groups_.empty() ? several_groups : node_groups_[level_begins_[level] + node];
+  }
+  std::size_t end_of_leaf(std::size_t leaf) const {
+    return std::min(boxes_.size(), (leaf + 1) * leaf_size);
+  }
+  bool is_wanted(std::size_t i, std::size_t j) const {
+    return groups_.empty() || groups_[i] != groups_[j];
+  }
 
   // Recursion is as deep as the logarithm of the number of boxes.
-  void build(std::uint32_t begin, std::uint32_t end) {
-    DoubleBox box = boxes_[order_[begin]];
-    for (std::uint32_t k = begin + 1; k < end; ++k) box = join(box, boxes_[order_[k]]);
-    const std::size_t self = nodes_.size();
-    nodes_.push_back({box, begin, end, 0});
-    if (end - begin <= leaf_size) return;
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (box.upper[i] - box.lower[i] > box.upper[axis] - box.lower[axis]) axis = i;
-    }
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](std::uint32_t i, std::uint32_t j) {
-                       const DoubleBox& p = boxes_[i];
-                       const DoubleBox& q = boxes_[j];
-                       return p.lower[axis] + p.upper[axis] < q.lower[axis] + q.upper[axis];
-                     });
-    build(begin, middle);
-    nodes_[self].second = static_cast<std::uint32_t>(nodes_.size());
-    build(middle, end);
-  }
-
   template <class Visit>
-  void visit_leaves(const Node& m, const Node& n, bool same, Visit& visit) const {
-    for (std::uint32_t i = m.begin; i < m.end; ++i) {
-      for (std::uint32_t j = same ? i + 1 : n.begin; j < n.end; ++j) {
-        if (meet(ordered_[i], ordered_[j])) visit(order_[i], order_[j]);
-      }
-    }
-  }
-
-  std::span<const DoubleBox> boxes_;
-  std::vector<std::uint32_t> order_;
-  std::vector<DoubleBox> ordered_;  // the boxes of a node lie side by side
-  std::vector<Node> nodes_;
-};
-
-// Boxes in groups, of which only pairs of different groups are wanted. A group's own hierarchy is
-// built when another group comes near.
-class GroupedBoxes {
- public:
-  // Group g is the boxes begins[g] ... begins[g + 1], the last one up to the end.
-  // REQUIRES begins ascends from 0, if there are boxes; both outlive this.
-  GroupedBoxes(std::span<const DoubleBox> boxes, std::span<const std::uint32_t> begins)
-      : boxes_(boxes), begins_(begins), hierarchies_(begins.size()) {
-    group_boxes_.reserve(begins.size());
-    for (std::uint32_t g = 0; g < begins.size(); ++g) {
-      DoubleBox box = boxes[begins[g]];
-      for (std::uint32_t i = begins[g] + 1; i < end_of(g); ++i) box = join(box, boxes[i]);
-      group_boxes_.push_back(box);
-    }
-  }
-
-  // visit(i, j) once for each pair of boxes of different groups that meet.
-  template <class Visit>
-  void for_each_pair(Visit visit) {
-    BoxHierarchy(group_boxes_).for_each_pair([&](std::uint32_t g, std::uint32_t h) {
-      if (size_of(g) > size_of(h)) std::swap(g, h);
-      for (std::uint32_t i = begins_[g]; i < end_of(g); ++i) {
-        if (meet(boxes_[i], group_boxes_[h])) {
-          for_each_meeting(h, boxes_[i], [&](std::uint32_t j) { visit(i, j); });
+  void visit_pairs_within(std::size_t level, std::size_t node, Visit& visit) const {
+    if (group_of(level, node) != several_groups) return;
+    if (level == 0) {
+      const std::size_t end = end_of_leaf(node);
+      for (std::size_t i = node * leaf_size; i < end; ++i) {
+        for (std::size_t j = i + 1; j < end; ++j) {
+          if (meet(boxes_[i], boxes_[j]) && is_wanted(i, j)) visit(order_[i], order_[j]);
         }
-      }
-    });
-  }
-
- private:
-  static constexpr std::uint32_t small_group = 16;
-
-  std::uint32_t end_of(std::uint32_t g) const {
-    return g + 1 < begins_.size() ? begins_[g + 1] : static_cast<std::uint32_t>(boxes_.size());
-  }
-  std::uint32_t size_of(std::uint32_t g) const { return end_of(g) - begins_[g]; }
-
-  template <class Visit>
-  void for_each_meeting(std::uint32_t g, const DoubleBox& query, Visit visit) {
-    if (size_of(g) <= small_group) {
-      for (std::uint32_t i = begins_[g]; i < end_of(g); ++i) {
-        if (meet(boxes_[i], query)) visit(i);
       }
       return;
     }
-    std::optional<BoxHierarchy>& hierarchy = hierarchies_[g];
-    if (!hierarchy) hierarchy.emplace(boxes_.subspan(begins_[g], size_of(g)));
-    hierarchy->for_each_meeting(query, [&](std::uint32_t i) { visit(begins_[g] + i); });
+    const std::size_t first = 2 * node;
+    visit_pairs_within(level - 1, first, visit);
+    if (first + 1 == level_size(level - 1)) return;
+    visit_pairs_within(level - 1, first + 1, visit);
+    const DoubleBox* boxes = level_boxes(level - 1);
+    if (meet(boxes[first], boxes[first + 1])) {
+      visit_pairs_between(level - 1, first, first + 1, visit);
+    }
   }
 
-  std::span<const DoubleBox> boxes_;
-  std::span<const std::uint32_t> begins_;
-  std::vector<DoubleBox> group_boxes_;
-  std::vector<std::optional<BoxHierarchy>> hierarchies_;
+  // REQUIRES a < b and nodes that meet
+  template <class Visit>
+  void visit_pairs_between(std::size_t level, std::size_t a, std::size_t b, Visit& visit) const {
+    const std::uint32_t group = group_of(level, a);
+    if (group != several_groups && group == group_of(level, b)) return;
+    const DoubleBox& second = level_boxes(level)[b];
+    if (level == 0) {
+      const std::size_t end = end_of_leaf(b);
+      for (std::size_t i = a * leaf_size; i < (a + 1) * leaf_size; ++i) {
+        if (!meet(boxes_[i], second)) continue;
+        for (std::size_t j = b * leaf_size; j < end; ++j) {
+          if (meet(boxes_[i], boxes_[j]) && is_wanted(i, j)) visit(order_[i], order_[j]);
+        }
+      }
+      return;
+    }
+    const DoubleBox* boxes = level_boxes(level - 1);
+    const std::size_t end = std::min(2 * b + 2, level_size(level - 1));
+    for (std::size_t i = 2 * a; i < 2 * a + 2; ++i) {
+      if (!meet(boxes[i], second)) continue;
+      for (std::size_t j = 2 * b; j < end; ++j) {
+        if (meet(boxes[i], boxes[j])) visit_pairs_between(level - 1, i, j, visit);
+      }
+    }
+  }
+
+  // REQUIRES a node that meets the query
+  template <class Visit>
+  void visit_meeting(std::size_t level, std::size_t node, const DoubleBox& query,
+                     Visit& visit) const {
+    if (level == 0) {
+      for (std::size_t i = node * leaf_size; i < end_of_leaf(node); ++i) {
+        if (meet(boxes_[i], query)) visit(order_[i]);
+      }
+      return;
+    }
+    const DoubleBox* boxes = level_boxes(level - 1);
+    const std::size_t end = std::min(2 * node + 2, level_size(level - 1));
+    for (std::size_t i = 2 * node; i < end; ++i) {
+      if (meet(boxes[i], query)) visit_meeting(level - 1, i, query, visit);
+    }
+  }
+
+  std::vector<std::uint32_t> order_;
+  std::vector<DoubleBox> boxes_;            // in this order
+  std::vector<std::uint32_t> groups_;       // in this order
+  std::vector<DoubleBox> nodes_;            // level by level
+  std::vector<std::uint32_t> node_groups_;  // the group of all boxes, or several_groups
+  std::vector<std::size_t> level_begins_;
+};
+
+// Boxes in groups, of which only pairs of different groups are wanted.
+class GroupedBoxes {
+ public:
+  // Group g is the boxes begins[g] ... begins[g + 1], the last one up to the end.
+  // REQUIRES begins ascends from 0, if there are boxes
+  GroupedBoxes(std::span<const DoubleBox> boxes, std::span<const std::uint32_t> begins)
+      : hierarchy_(boxes, groups_of(boxes.size(), begins)) {}
+
+  // visit(i, j) once for each pair of boxes of different groups that meet.
+  template <class Visit>
+  void for_each_pair(Visit visit) const {
+    hierarchy_.for_each_pair(visit);
+  }
+
+ private:
+  static std::vector<std::uint32_t> groups_of(std::size_t count,
+                                              std::span<const std::uint32_t> begins);
+
+  BoxHierarchy hierarchy_;
 };
 
 }  // namespace exactcsg
