@@ -370,25 +370,35 @@ std::vector<Point3> clip_closed(std::vector<Point3> polygon, const Vector3& norm
   return inside;
 }
 
-bool meets_improperly(const std::array<Point3, 3>& f, const std::array<Point3, 3>& g) {
-  std::vector<Point3> common(f.begin(), f.end());
+bool meets_improperly(const std::vector<Point3>& f, const std::vector<Point3>& g) {
+  std::vector<Point3> common = f;
   const Vector3 n = cross(g[1] - g[0], g[2] - g[0]);
   common = clip_closed(common, n, g[0]);
   common = clip_closed(common, Rational(-1) * n, g[0]);
-  for (std::size_t k = 0; k < 3; ++k) {
-    common = clip_closed(common, cross(g[(k + 1) % 3] - g[k], n), g[k]);
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    common = clip_closed(common, cross(g[(k + 1) % g.size()] - g[k], n), g[k]);
   }
   std::vector<Point3> distinct;
   for (const Point3& p : common) {
     if (std::find(distinct.begin(), distinct.end(), p) == distinct.end()) distinct.push_back(p);
   }
-  // Proper: nothing, one common vertex, or the hull of two common vertices (for triangles an edge).
-  const auto vertex_of = [](const std::array<Point3, 3>& t, const Point3& p) {
+  // Proper: nothing, one common vertex, or a common edge.
+  const auto vertex_of = [](const std::vector<Point3>& t, const Point3& p) {
     return std::find(t.begin(), t.end(), p) != t.end();
+  };
+  const auto edge_of = [](const std::vector<Point3>& t, const Point3& p, const Point3& q) {
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      const Point3& next = t[(k + 1) % t.size()];
+      if ((t[k] == p && next == q) || (t[k] == q && next == p)) return true;
+    }
+    return false;
   };
   if (distinct.size() > 2) {
     // More than two points: collinear ones between two common vertices would be no vertex.
     return true;
+  }
+  if (distinct.size() == 2) {
+    return !edge_of(f, distinct[0], distinct[1]) || !edge_of(g, distinct[0], distinct[1]);
   }
   return std::any_of(distinct.begin(), distinct.end(),
                      [&](const Point3& p) { return !vertex_of(f, p) || !vertex_of(g, p); });
@@ -397,15 +407,28 @@ bool meets_improperly(const std::array<Point3, 3>& f, const std::array<Point3, 3
 TEST_F(RandomPairs, AgreeWithClippingInRationals) {
   int improper = 0;
   int proper = 0;
-  for (int round = 0; round < 1200; ++round) {
+  for (int round = 0; round < 2400; ++round) {
     // Two thin doubled triangles are no mesh; so pad each to a tetrahedron and keep the pairs of
-    // tetrahedra whose boundaries meet properly, by brute force over all pairs of facets.
+    // tetrahedra whose boundaries meet properly, by brute force over all pairs of facets. Of
+    // parallelepipeds there are facets of four corners.
     const int grid = 2 + round % 4;
+    const bool boxes = round % 8 >= 4;
     std::array<Polyhedron, 2> solids;
     for (Polyhedron& s : solids) {
       do {
+        const auto point = [&] { return Point3{next(grid), next(grid), next(grid)}; };
         s = tetrahedron();
-        for (Point3& p : s.vertices) p = {next(grid), next(grid), next(grid)};
+        for (Point3& p : s.vertices) p = point();
+        if (!boxes) continue;
+        const std::vector<Point3> corners = s.vertices;
+        s = box_polyhedron(0, 0, 0, 1, 1, 1);
+        for (std::size_t i = 0; i < s.vertices.size(); ++i) {
+          Point3 p = corners[0];
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            if ((i >> axis & 1U) != 0) p = p + (corners[axis + 1] - corners[0]);
+          }
+          s.vertices[i] = p;
+        }
       } while (six_volumes(s) == 0);
       if (six_volumes(s) < 0) s = reversed(s);
     }
@@ -413,7 +436,9 @@ TEST_F(RandomPairs, AgreeWithClippingInRationals) {
     for (const Facet& f : solids[0].facets) {
       for (const Facet& g : solids[1].facets) {
         const auto corners = [](const Polyhedron& p, const Facet& x) {
-          return std::array<Point3, 3>{p.vertices[x[0]], p.vertices[x[1]], p.vertices[x[2]]};
+          std::vector<Point3> points;
+          for (const std::uint32_t v : x) points.push_back(p.vertices[v]);
+          return points;
         };
         if (meets_improperly(corners(solids[0], f), corners(solids[1], g))) expected = false;
       }

@@ -41,21 +41,51 @@ struct Situation {
   bool front = false;       // some vertex strictly in front
   bool behind = false;
   std::vector<std::size_t> on;  // positions in the facet of the vertices in the other plane
+  std::vector<Index> along;     // vertices in a line, of a facet in the other's plane
 };
 
 bool contains(const Facet& facet, Index v) {
   return std::find(facet.begin(), facet.end(), v) != facet.end();
 }
 
-void situate(const PolyhedronSigns& signs, const Facet& facet, const Facet& other,
-             const FacetFrame& plane, Situation& s) {
+// A facet with what is known of its plane.
+struct CheckedFacet {
+  const Facet& facet;
+  const FacetFrame& frame;
+  const PolyhedronSigns::NearPlane& plane;
+};
+
+// True if doubles tell that all vertices of a facet that are not the other's lie strictly on one
+// side of the other's plane: the facet meets that plane in a common vertex, in the side between two
+// of them, which is the other's side as well if that is a triangle, or not at all.
+bool surely_apart(const PolyhedronSigns& signs, const Facet& facet, const CheckedFacet& other) {
+  Sign side = Sign::Zero;
+  std::size_t common = 0;
+  for (const Index v : facet) {
+    if (contains(other.facet, v)) {
+      ++common;
+      continue;
+    }
+    const Sign sign = signs.certain_side(other.plane, v);
+    if (sign == Sign::Zero || sign == -side) return false;
+    side = sign;
+  }
+  return common < 2 || (common == 2 && other.facet.size() == 3);
+}
+
+void situate(const PolyhedronSigns& signs, const Facet& facet, const CheckedFacet& other,
+             Situation& s) {
   s.signs.clear();
   s.on.clear();
   s.front = s.behind = false;
-  const auto [a, b, c] = plane.corners;
+  const auto [a, b, c] = other.frame.corners;
   for (std::size_t k = 0; k < facet.size(); ++k) {
     const Index v = facet[k];
-    const Sign sign = contains(other, v) ? Sign::Zero : signs.orientation(a, b, c, v);
+    Sign sign = Sign::Zero;
+    if (!contains(other.facet, v)) {
+      sign = signs.certain_side(other.plane, v);
+      if (sign == Sign::Zero) sign = signs.orientation(a, b, c, v);
+    }
     s.signs.push_back(sign);
     if (sign == Sign::Zero) s.on.push_back(k);
     s.front = s.front || sign == Sign::Positive;
@@ -65,23 +95,25 @@ void situate(const PolyhedronSigns& signs, const Facet& facet, const Facet& othe
 
 class Pair {
  public:
-  Pair(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
-       const std::vector<FacetFrame>& frames, Index f, Index g, Situation& of_f, Situation& of_g)
+  Pair(const PolyhedronSigns& signs, const CheckedFacet& f, const CheckedFacet& g, Situation& of_f,
+       Situation& of_g)
       : signs_(signs),
-        f_(polyhedron.facets[f]),
-        g_(polyhedron.facets[g]),
-        f_frame_(frames[f]),
+        f_checked_(f),
+        g_checked_(g),
+        f_(f.facet),
+        g_(g.facet),
         of_f_(of_f),
-        of_g_(of_g),
-        g_frame_(frames[g]) {}
+        of_g_(of_g) {}
 
   // True if they meet in common vertices and edges only.
   bool proper() {
-    situate(signs_, g_, f_, f_frame_, of_g_);
-    if (of_g_.on.empty() && of_g_.front != of_g_.behind) return true;
-    situate(signs_, f_, g_, g_frame_, of_f_);
-    if (of_f_.on.empty() && of_f_.front != of_f_.behind) return true;
+    if (surely_apart(signs_, g_, f_checked_) || surely_apart(signs_, f_, g_checked_)) return true;
+    if (side_separates(f_checked_, g_) || side_separates(g_checked_, f_)) return true;
+    situate(signs_, g_, f_checked_, of_g_);
     if (of_g_.on.size() == g_.size()) return proper_in_one_plane();
+    if (of_g_.on.empty() && of_g_.front != of_g_.behind) return true;
+    situate(signs_, f_, g_checked_, of_f_);
+    if (of_f_.on.empty() && of_f_.front != of_f_.behind) return true;
     return proper_across();
   }
 
@@ -165,12 +197,13 @@ class Pair {
   }
 
   bool proper_in_one_plane() const {
-    for (const auto& [facet, frame, other] :
-         {std::tuple{&f_, &f_frame_, &g_}, std::tuple{&g_, &g_frame_, &f_}}) {
-      for (std::size_t k = 0; k < facet->size(); ++k) {
-        const Index a = (*facet)[k];
-        const Index b = (*facet)[(k + 1) % facet->size()];
-        if (!separates(a, b, *frame, *other)) continue;
+    for (const auto& [facet, other] :
+         {std::pair{&f_checked_, &g_checked_}, std::pair{&g_checked_, &f_checked_}}) {
+      const Facet& vertices = facet->facet;
+      for (std::size_t k = 0; k < vertices.size(); ++k) {
+        const Index a = vertices[k];
+        const Index b = vertices[k + 1 == vertices.size() ? 0 : k + 1];
+        if (!separates(a, b, facet->frame, other->facet)) continue;
         return proper_along(a, b);
       }
     }
@@ -182,6 +215,21 @@ class Pair {
     return signs_.turn(frame.dropped, a, b, v) * frame.sign;
   }
 
+  // True if the upright plane through a side has the facet, which touches it there only, on one
+  // side and the other one, but for common vertices, strictly on the other side.
+  bool side_separates(const CheckedFacet& checked, const Facet& other) const {
+    const Facet& facet = checked.facet;
+    for (std::size_t k = 0; k < facet.size(); ++k) {
+      const Index a = facet[k];
+      const Index b = facet[k + 1 == facet.size() ? 0 : k + 1];
+      const bool strictly = std::all_of(other.begin(), other.end(), [&](Index v) {
+        return v == a || v == b || turn(checked.frame, a, b, v) == Sign::Negative;
+      });
+      if (strictly) return true;
+    }
+    return false;
+  }
+
   bool separates(Index a, Index b, const FacetFrame& frame, const Facet& other) const {
     return std::all_of(other.begin(), other.end(),
                        [&](Index v) { return turn(frame, a, b, v) != Sign::Positive; });
@@ -189,9 +237,12 @@ class Pair {
 
   // Both facets lie on different sides of the line ab: what they have in common is in it.
   bool proper_along(Index a, Index b) const {
-    const std::vector<Index> on_f = along(f_, a, b);
-    const std::vector<Index> on_g = along(g_, a, b);
+    const std::vector<Index>& on_f = along(f_, a, b, of_f_);
+    const std::vector<Index>& on_g = along(g_, a, b, of_g_);
     if (on_f.empty() || on_g.empty()) return true;
+    // A single vertex is all that one of them has in the line.
+    if (on_f.size() == 1 && contains(on_g, on_f[0])) return true;
+    if (on_g.size() == 1 && contains(on_f, on_g[0])) return true;
     CoordinateIndex coordinate = 0;
     while (signs_.compare(coordinate, a, b) == Sign::Zero) ++coordinate;
     const auto later = [&](Index v, Index w) {
@@ -207,12 +258,12 @@ class Pair {
     return common_chain(low, high);
   }
 
-  std::vector<Index> along(const Facet& facet, Index a, Index b) const {
-    std::vector<Index> on;
+  const std::vector<Index>& along(const Facet& facet, Index a, Index b, Situation& s) const {
+    s.along.clear();
     for (const Index v : facet) {
-      if (turn(f_frame_, a, b, v) == Sign::Zero) on.push_back(v);
+      if (turn(f_checked_.frame, a, b, v) == Sign::Zero) s.along.push_back(v);
     }
-    return on;
+    return s.along;
   }
 
   template <class Later>
@@ -226,12 +277,12 @@ class Pair {
   }
 
   const PolyhedronSigns& signs_;
+  const CheckedFacet& f_checked_;
+  const CheckedFacet& g_checked_;
   const Facet& f_;
   const Facet& g_;
-  const FacetFrame& f_frame_;
   Situation& of_f_;
   Situation& of_g_;
-  const FacetFrame& g_frame_;
 };
 
 }  // namespace
@@ -256,21 +307,29 @@ namespace {
 
 template <class Visit>
 void for_each_improper_pair(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
-                            const std::vector<FacetFrame>& frames, Visit visit) {
-  const std::vector<DoubleBox> boxes = facet_boxes(polyhedron, signs);
+                            const std::vector<FacetFrame>& frames, const BoxHierarchy& hierarchy,
+                            Visit visit) {
+  std::vector<PolyhedronSigns::NearPlane> planes;
+  planes.reserve(frames.size());
+  for (const FacetFrame& frame : frames) {
+    const auto [a, b, c] = frame.corners;
+    planes.push_back(signs.near_plane(a, b, c));
+  }
   Situation of_f;
   Situation of_g;
-  BoxHierarchy(boxes).for_each_pair([&](Index i, Index j) {
+  hierarchy.for_each_pair([&](Index i, Index j) {
     const auto [f, g] = std::minmax(i, j);
-    if (!Pair(polyhedron, signs, frames, f, g, of_f, of_g).proper()) visit(f, g);
+    const CheckedFacet first{polyhedron.facets[f], frames[f], planes[f]};
+    const CheckedFacet second{polyhedron.facets[g], frames[g], planes[g]};
+    if (!Pair(signs, first, second, of_f, of_g).proper()) visit(f, g);
   });
 }
 
 }  // namespace
 
 void check_crossings(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
-                     const std::vector<FacetFrame>& frames) {
-  for_each_improper_pair(polyhedron, signs, frames, [&](Index f, Index g) {
+                     const std::vector<FacetFrame>& frames, const BoxHierarchy& hierarchy) {
+  for_each_improper_pair(polyhedron, signs, frames, hierarchy, [&](Index f, Index g) {
     throw Error(ErrorId::SelfIntersectingMesh,
                 {describe_facet(polyhedron, f) + " and " + describe_facet(polyhedron, g),
                  "facets that meet in common vertices and edges only"});
@@ -281,7 +340,8 @@ std::vector<std::array<std::uint32_t, 2>> improper_pairs(const Polyhedron& polyh
                                                          const PolyhedronSigns& signs,
                                                          const std::vector<FacetFrame>& frames) {
   std::vector<std::array<Index, 2>> pairs;
-  for_each_improper_pair(polyhedron, signs, frames, [&](Index f, Index g) {
+  const std::vector<DoubleBox> boxes = facet_boxes(polyhedron, signs);
+  for_each_improper_pair(polyhedron, signs, frames, BoxHierarchy(boxes), [&](Index f, Index g) {
     pairs.push_back({f, g});
   });
   std::sort(pairs.begin(), pairs.end());

@@ -105,10 +105,9 @@ std::vector<std::uint32_t> manifold_parts(const Polyhedron& polyhedron,
 }
 
 void check_winding(const Polyhedron& polyhedron, PolyhedronSigns& signs,
-                   const std::vector<FacetFrame>& frames, const std::vector<HalfEdge>& edges) {
+                   const std::vector<FacetFrame>& frames, const std::vector<HalfEdge>& edges,
+                   const BoxHierarchy& hierarchy) {
   const std::vector<Index> part = manifold_parts(polyhedron, edges, [](Index) { return true; });
-  const std::vector<DoubleBox> boxes = facet_boxes(polyhedron, signs);
-  const BoxHierarchy hierarchy(boxes);
   std::vector<bool> decided(polyhedron.facets.size(), false);
   constexpr unsigned attempts = 64;
   for (Index f = 0; f < polyhedron.facets.size(); ++f) {

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "exactcsg/solid/bucket_sort.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -201,17 +202,22 @@ std::vector<FacetFrame> check_facets(const Polyhedron& polyhedron, const Polyhed
 
 std::vector<HalfEdge> half_edges(const Polyhedron& polyhedron) {
   std::vector<HalfEdge> edges;
+  std::size_t count = 0;
+  for (const Facet& facet : polyhedron.facets) count += facet.size();
+  edges.reserve(count);
   for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
     const Facet& facet = polyhedron.facets[f];
     for (std::size_t k = 0; k < facet.size(); ++k) {
       const std::uint32_t a = facet[k];
-      const std::uint32_t b = facet[(k + 1) % facet.size()];
+      const std::uint32_t b = facet[k + 1 == facet.size() ? 0 : k + 1];
       edges.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(f), a < b});
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return std::tie(a.low, a.high, a.facet) < std::tie(b.low, b.high, b.facet);
-  });
+  sort_in_buckets(
+      edges, polyhedron.vertices.size(), [](const HalfEdge& edge) { return edge.low; },
+      [](const HalfEdge& a, const HalfEdge& b) {
+        return std::tie(a.high, a.facet) < std::tie(b.high, b.facet);
+      });
   return edges;
 }
 

@@ -58,11 +58,13 @@ std::vector<DoubleBox> facet_boxes(const Polyhedron& polyhedron, const Polyhedro
 
 // Two facets meet in nothing but common vertices and common edges, and the winding number is 0 in
 // front of every facet and 1 behind it.
+// REQUIRES the hierarchy of facet_boxes
 // THROWS Error(SelfIntersectingMesh | InvertedMesh)
 void check_crossings(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
-                     const std::vector<FacetFrame>& frames);
+                     const std::vector<FacetFrame>& frames, const BoxHierarchy& hierarchy);
 void check_winding(const Polyhedron& polyhedron, PolyhedronSigns& signs,
-                   const std::vector<FacetFrame>& frames, const std::vector<HalfEdge>& edges);
+                   const std::vector<FacetFrame>& frames, const std::vector<HalfEdge>& edges,
+                   const BoxHierarchy& hierarchy);
 
 // The pairs of facets, the smaller number first, that meet in something else than common vertices
 // and common edges. Sorted.

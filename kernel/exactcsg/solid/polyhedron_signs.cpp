@@ -2,6 +2,7 @@
 #include "exactcsg/solid/polyhedron_signs.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -20,6 +21,11 @@ constexpr double ulp = std::numeric_limits<double>::epsilon();  // 2^-52, twice 
 constexpr double smallest_difference = 1e-70;
 constexpr double largest_difference = 1e70;
 constexpr std::size_t small_bits = 40;
+constexpr std::size_t double_bits = std::numeric_limits<double>::digits;
+
+double error_of_rounding(double largest) {
+  return ulp * largest + std::numeric_limits<double>::min();
+}
 
 Sign sign_of_wide(Wide value) {
   return value > 0 ? Sign::Positive : value < 0 ? Sign::Negative : Sign::Zero;
@@ -40,8 +46,55 @@ Differences differences(const std::array<double, 3>& from, const std::array<doub
 
 PolyhedronSigns::PolyhedronSigns(std::span<const Point3> points) {
   approximate_.reserve(points.size());
+  const std::optional<Integer> common = short_common_denominator(points);
+  if (!common || !set_small(points, *common)) set_long(points, common);
+  point_error_ = coordinate_error_;
+}
+
+// Numerators and denominators are exact doubles, and one IEEE division rounds correctly.
+bool PolyhedronSigns::set_small(std::span<const Point3> points, const Integer& common) {
+  if (mpz_sizeinbase(common.get_mpz_t(), 2) > double_bits) return false;
+  const std::uint64_t denominator = common.get_ui();
+  small_.reserve(points.size());
+  std::uint64_t all_magnitudes = 0;
+  double largest = 0;
+  for (const Point3& p : points) {
+    std::array<std::int64_t, 3> scaled{};
+    std::array<double, 3> rounded{};
+    for (CoordinateIndex i = 0; i < 3; ++i) {
+      const Rational& value = coordinate(p, i);
+      std::uint64_t magnitude = mpz_get_ui(value.get_num_mpz_t());
+      const bool fits =
+          mpz_size(value.get_num_mpz_t()) <= 1 &&
+          !__builtin_mul_overflow(magnitude, denominator / mpz_get_ui(value.get_den_mpz_t()),
+                                  &magnitude) &&
+          magnitude >> small_bits == 0;
+      if (!fits) {
+        small_.clear();
+        approximate_.clear();
+        return false;
+      }
+      all_magnitudes |= magnitude;
+      scaled[i] = static_cast<std::int64_t>(magnitude);
+      if (sgn(value) < 0) scaled[i] = -scaled[i];
+      rounded[i] = static_cast<double>(scaled[i]) / static_cast<double>(denominator);
+      largest = std::max(largest, std::abs(rounded[i]));
+    }
+    small_.push_back(scaled);
+    approximate_.push_back(rounded);
+  }
+  numerator_bits_ = static_cast<std::size_t>(std::bit_width(all_magnitudes));
+  weight_bits_ = 1;
+  coordinate_error_ = std::has_single_bit(denominator) ? 0 : error_of_rounding(largest);
+  return true;
+}
+
+void PolyhedronSigns::set_long(std::span<const Point3> points,
+                               const std::optional<Integer>& common) {
   bool exactly_doubles = true;
   double largest = 0;
+  exact_.reserve(points.size());
+  weight_.reserve(points.size());
   for (const Point3& p : points) {
     std::array<double, 3> rounded{};
     for (CoordinateIndex i = 0; i < 3; ++i) {
@@ -51,32 +104,18 @@ PolyhedronSigns::PolyhedronSigns(std::span<const Point3> points) {
       exactly_doubles = exactly_doubles && std::isfinite(rounded[i]) && rounded[i] == value;
     }
     approximate_.push_back(rounded);
-  }
-  coordinate_error_ = exactly_doubles ? 0 : ulp * largest + std::numeric_limits<double>::min();
-
-  point_error_ = coordinate_error_;
-
-  const std::optional<Integer> common = short_common_denominator(points);
-  exact_.reserve(points.size());
-  weight_.reserve(points.size());
-  bool all_small = common.has_value();
-  for (const Point3& p : points) {
     Integer own = 1;
     if (!common) {
       unit_weights_ = false;
       own = lcm(lcm(p.x.get_den(), p.y.get_den()), p.z.get_den());
     }
-    const Integer& factor = common ? *common : own;
     Exact scaled;
     for (CoordinateIndex i = 0; i < 3; ++i) {
-      set_scaled(scaled[i], coordinate(p, i), factor);
-      all_small = all_small && mpz_sizeinbase(scaled[i].get_mpz_t(), 2) <= small_bits;
+      set_scaled(scaled[i], coordinate(p, i), common ? *common : own);
     }
     append(scaled, own);
   }
-  if (!all_small) return;
-  small_.reserve(points.size());
-  for (const Exact& e : exact_) small_.push_back({e[0].get_si(), e[1].get_si(), e[2].get_si()});
+  coordinate_error_ = exactly_doubles ? 0 : error_of_rounding(largest);
 }
 
 void PolyhedronSigns::append(const Exact& numerators, const Integer& weight) {
@@ -94,15 +133,15 @@ PolyhedronSigns::Index PolyhedronSigns::add_mean(
   Integer denominator = 1;
   unsigned long total = 0;
   for (const auto& [index, k] : weighted) {
-    denominator = lcm(denominator, weight_[index]);
+    denominator = lcm(denominator, weight<Integer>(index));
     total += k;
   }
   Exact sum{0, 0, 0};
   std::array<double, 3> approximate{};
   for (const auto& [index, k] : weighted) {
-    const Integer factor = denominator / weight_[index] * k;
+    const Integer factor = denominator / weight<Integer>(index) * k;
     for (CoordinateIndex i = 0; i < 3; ++i) {
-      sum[i] += exact_[index][i] * factor;
+      sum[i] += numerator<Integer>(index, i) * factor;
       approximate[i] += approximate_[index][i] * static_cast<double>(k);
     }
   }
@@ -122,17 +161,39 @@ PolyhedronSigns::Index PolyhedronSigns::add_mean(
   append(sum, denominator * total);
   approximate_.push_back(approximate);
   unit_weights_ = false;
-  return static_cast<Index>(exact_.size() - 1);
+  return static_cast<Index>(approximate_.size() - 1);
+}
+
+template <class Integral>
+Integral PolyhedronSigns::numerator(Index point, CoordinateIndex i) const {
+  return point < small_.size() ? Integral(small_[point][i])
+                               : integer_from<Integral>(exact_[point - small_.size()][i]);
+}
+
+template <class Integral>
+Integral PolyhedronSigns::weight(Index point) const {
+  return point < small_.size() ? Integral(std::int64_t{1})
+                               : integer_from<Integral>(weight_[point - small_.size()]);
+}
+
+bool PolyhedronSigns::have_equal_weights(Index p, Index q) const {
+  if (unit_weights_ || std::max(p, q) < small_.size()) return true;
+  if (std::min(p, q) < small_.size()) return false;
+  return weight_[p - small_.size()] == weight_[q - small_.size()];
 }
 
 template <class Integral>
 std::array<Integral, 3> PolyhedronSigns::difference(Index from, Index to) const {
+  const auto unweighted = [&](CoordinateIndex i) -> Integral {
+    return numerator<Integral>(to, i) - numerator<Integral>(from, i);
+  };
+  if (have_equal_weights(from, to)) {
+    return {unweighted(0), unweighted(1), unweighted(2)};
+  }
+  const auto head = weight<Integral>(from);
+  const auto tail = weight<Integral>(to);
   const auto entry = [&](CoordinateIndex i) -> Integral {
-    const Integral head = integer_from<Integral>(exact_[to][i]);
-    const Integral tail = integer_from<Integral>(exact_[from][i]);
-    if (unit_weights_ || weight_[from] == weight_[to]) return head - tail;
-    return head * integer_from<Integral>(weight_[from]) -
-           tail * integer_from<Integral>(weight_[to]);
+    return numerator<Integral>(to, i) * head - numerator<Integral>(from, i) * tail;
   };
   return {entry(0), entry(1), entry(2)};
 }
@@ -185,6 +246,41 @@ Sign PolyhedronSigns::along_normal(Index a, Index b, Index c, Index p, Index q) 
     return sign_of(determinant);
   };
   return fits_stack(3) ? exactly(WideInteger()) : exactly(Integer());
+}
+
+PolyhedronSigns::NearPlane PolyhedronSigns::near_plane(Index a, Index b, Index c) const {
+  const Differences u = differences(approximate_[a], approximate_[b]);
+  const Differences v = differences(approximate_[a], approximate_[c]);
+  const auto& [ux, uy, uz] = u.entries;
+  const auto& [vx, vy, vz] = v.entries;
+  NearPlane plane{approximate_[a],
+                  {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx},
+                  std::numeric_limits<double>::infinity(),
+                  0};
+  const double largest = std::max(u.largest, v.largest);
+  const double e = 2 * coordinate_error_ + ulp * largest;
+  if (!(largest > smallest_difference && largest < largest_difference && e <= largest / 128)) {
+    return plane;
+  }
+  // With D = largest, r = 2^-52 and c = coordinate_error_: entries of the normal, at most 2.01 D^2,
+  // are off by at most n = D (5 e + 4 r D), as in turn(); those of the vector w to the point by
+  // 2 c + r W if none is above W. The product is off by at most
+  //   3 n (W + 2 c + r W) + 3 * 2.01 D^2 (2 c + r W)
+  // and its evaluation rounds each of three terms at most three times, 9.1 r D^2 W in all. By
+  // n <= 0.04 D^2 that is less than W (3.1 n + 16 r D^2) + 12.4 c D^2; what underflows is less than
+  // the least normal number.
+  const double off = largest * (5 * e + 4 * ulp * largest);
+  plane.slope = 3.2 * off + 20 * ulp * largest * largest;
+  plane.offset = 13 * coordinate_error_ * largest * largest + std::numeric_limits<double>::min();
+  return plane;
+}
+
+Sign PolyhedronSigns::certain_side(const NearPlane& plane, Index d) const {
+  const Differences w = differences(plane.corner, approximate_[d]);
+  const double value = plane.normal[0] * w.entries[0] + plane.normal[1] * w.entries[1] +
+                       plane.normal[2] * w.entries[2];
+  const double bound = plane.slope * w.largest + plane.offset;
+  return value > bound ? Sign::Positive : value < -bound ? Sign::Negative : Sign::Zero;
 }
 
 Sign PolyhedronSigns::turn(CoordinateIndex dropped, Index a, Index b, Index c) const {
@@ -262,16 +358,19 @@ Sign PolyhedronSigns::volume(std::span<const std::array<Index, 3>> triangles) co
   Rational exact = 0;
   Integer integral = 0;
   for (const auto& t : triangles) {
-    const Exact& x = exact_[t[0]];
-    const Exact& y = exact_[t[1]];
-    const Exact& z = exact_[t[2]];
+    std::array<Exact, 3> m;
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (CoordinateIndex i = 0; i < 3; ++i) m[r][i] = numerator<Integer>(t[r], i);
+    }
+    const auto& [x, y, z] = m;
     const Integer determinant = (x[1] * y[2] - x[2] * y[1]) * z[0] +
                                 (x[2] * y[0] - x[0] * y[2]) * z[1] +
                                 (x[0] * y[1] - x[1] * y[0]) * z[2];
     if (unit_weights_) {
       integral += determinant;
     } else {
-      Rational term(determinant, weight_[t[0]] * weight_[t[1]] * weight_[t[2]]);
+      Rational term(determinant,
+                    weight<Integer>(t[0]) * weight<Integer>(t[1]) * weight<Integer>(t[2]));
       term.canonicalize();
       exact += term;
     }

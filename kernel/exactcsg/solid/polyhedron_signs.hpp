@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,9 +34,25 @@ class PolyhedronSigns {
 
   // The sign of ((b - a) x (c - a)) . (d - a): Positive if d lies on the side of the plane a, b, c
   // from which these are seen counter-clockwise.
-  Sign orientation(Index a, Index b, Index c, Index d) const { return along_normal(a, b, c, a, d); }
+  Sign orientation(Index a, Index b, Index c, Index d) const {
+    return d == a || d == b || d == c ? Sign::Zero : along_normal(a, b, c, a, d);
+  }
   // The sign of ((b - a) x (c - a)) . (q - p): Positive if q is farther than p along the normal.
   Sign along_normal(Index a, Index b, Index c, Index p, Index q) const;
+
+  // The plane of three points in doubles, for asking about many points.
+  struct NearPlane {
+    std::array<double, 3> corner{};
+    std::array<double, 3> normal{};
+    // A point whose coordinates differ from the corner's by at most w is placed wrongly only if its
+    // product with the normal is at most slope * w + offset.
+    double slope = 0;
+    double offset = 0;
+  };
+  NearPlane near_plane(Index a, Index b, Index c) const;
+  // orientation(a, b, c, d) for the plane of a, b and c, or Zero where doubles do not tell.
+  Sign certain_side(const NearPlane& plane, Index d) const;
+
   // The sign of one component of (b - a) x (c - a): the turn a, b, c in the projection along it.
   Sign turn(CoordinateIndex dropped, Index a, Index b, Index c) const;
   bool collinear(Index a, Index b, Index c) const;
@@ -56,19 +73,27 @@ class PolyhedronSigns {
   // Whether a sum of six products of `factors` differences fits the integers on the stack.
   bool fits_stack(std::size_t factors) const;
   void append(const Exact& numerators, const Integer& weight);
+  // The points as machine integers over their common denominator; false if these do not fit.
+  bool set_small(std::span<const Point3> points, const Integer& common);
+  void set_long(std::span<const Point3> points, const std::optional<Integer>& common);
+  template <class Integral>
+  Integral numerator(Index point, CoordinateIndex i) const;
+  template <class Integral>
+  Integral weight(Index point) const;
+  bool have_equal_weights(Index p, Index q) const;
 
   std::vector<std::array<double, 3>> approximate_;
   double point_error_ = 0;       // of the points given
   double coordinate_error_ = 0;  // of these and of the means
-  // Coordinates of all points times one common positive factor (a sign does not feel it), each to
-  // be divided by the point's own positive weight.
+  // Coordinates of all points times one common positive factor (a sign does not feel it) are
+  // machine integers below 2^40 in magnitude, if they all fit; those of the other points, which
+  // follow, are to be divided by the point's own positive weight.
+  std::vector<std::array<std::int64_t, 3>> small_;
   std::vector<Exact> exact_;
   std::vector<Integer> weight_;
   bool unit_weights_ = true;
   std::size_t numerator_bits_ = 0;
   std::size_t weight_bits_ = 0;
-  // The same as machine integers if all weights are 1 and every magnitude is below 2^40.
-  std::vector<std::array<std::int64_t, 3>> small_;
 };
 
 }  // namespace exactcsg

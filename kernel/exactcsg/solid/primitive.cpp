@@ -56,8 +56,10 @@ PolyhedralMesh make_mesh(Polyhedron polyhedron) {
   const std::vector<HalfEdge> edges = half_edges(polyhedron);
   check_closed(polyhedron, edges);
   require_outward(polyhedron, signs);
-  check_crossings(polyhedron, signs, frames);
-  check_winding(polyhedron, signs, frames, edges);
+  const std::vector<DoubleBox> boxes = facet_boxes(polyhedron, signs);
+  const BoxHierarchy hierarchy(boxes);
+  check_crossings(polyhedron, signs, frames, hierarchy);
+  check_winding(polyhedron, signs, frames, edges, hierarchy);
   return share_mesh(std::move(polyhedron));
 }
 
