@@ -138,16 +138,15 @@ Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r) const {
 Vertex Geometry::meet(PlaneRef p, PlaneRef q, PlaneRef r, const Vertex& from,
                       const Vertex& to) const {
   Vertex v = meeting_vertex(p, q, r);
-  const std::array<ApproximatePlane, 3> planes{approximate(v.planes[0]), approximate(v.planes[1]),
-                                               approximate(v.planes[2])};
-  // Between the ends is quicker to compute, and mostly as good.
+  const ApproximatePlane crossed = approximate(r);
+  // Between the ends is quicker to compute, and mostly as good. Where the ends have a coordinate in
+  // common, so has what lies between them: of the three planes only r has to be snapped to.
   std::optional<ApproximatePoint> position =
-      approximate_crossing(approximate(r), position_of(from), position_of(to));
-  if (position) {
-    for (const ApproximatePlane& plane : planes) snap(plane, *position);
-  }
+      approximate_crossing(crossed, position_of(from), position_of(to));
+  if (position) snap(crossed, *position);
   if (!position || position->error > good * length_of(*position)) {
-    const std::optional<ApproximatePoint> met = approximate_meeting_point(planes);
+    const std::optional<ApproximatePoint> met = approximate_meeting_point(
+        {approximate(v.planes[0]), approximate(v.planes[1]), approximate(v.planes[2])});
     if (met && (!position || met->error < position->error)) position = met;
   }
   set_position(v, position ? *position : exactly_met(v));
