@@ -42,7 +42,10 @@ TEST(MeetingPoint, OfALineAndAPlane) {
   for (int round = 0; round < 4000; ++round) {
     std::array<Point3, 5> points;
     for (Point3& point : points) point = random(round % 4);
-    const auto& [p, q, a, b, c] = points;
+    auto& [p, q, a, b, c] = points;
+    // A plane across an axis now and then.
+    if (round % 5 == 0) a.z = b.z = c.z;
+    if (round % 7 == 0) a.x = b.x = c.x;
     // Any two planes through p and q.
     const Point3 r = random(0);
     const Point3 s = random(0);
@@ -51,8 +54,9 @@ TEST(MeetingPoint, OfALineAndAPlane) {
     const auto third = reference::plane_through(a, b, c);
     if (reference::determinant(first, second, third) == 0) continue;
     ++compared;
-    EXPECT_EQ(meeting_point_of_line(homogeneous_of(p), homogeneous_of(q), plane_through(a, b, c)),
-              reference::meeting_point(first, second, third));
+    EXPECT_EQ(
+        meeting_point_of_line(p, homogeneous_of(p), homogeneous_of(q), plane_through(a, b, c)),
+        reference::meeting_point(first, second, third));
   }
   EXPECT_GT(compared, 2000);
 }

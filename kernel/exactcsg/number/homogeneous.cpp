@@ -5,6 +5,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "exactcsg/number/common_denominator.hpp"
 #include "exactcsg/support/error.hpp"
@@ -122,6 +124,30 @@ Rational coordinate_of_line(LineScratch& s, std::size_t i) {
   return result;
 }
 
+// Sets slope and at_p, without a common factor. `direction` is divided by a power of two.
+void set_slope(LineScratch& s, const Plane& plane) {
+  halve_while_even(s.direction);
+  const std::array<const Integer*, 3> normal{&plane.a, &plane.b, &plane.c};
+  set_dot(s.slope, normal, s.direction);
+  set_dot(s.at_p, normal, s.p);
+  mpz_addmul(s.at_p.get_mpz_t(), plane.d.get_mpz_t(), s.common_w.get_mpz_t());
+  mpz_gcd(s.common_factor.get_mpz_t(), s.at_p.get_mpz_t(), s.slope.get_mpz_t());
+  if (s.slope < 0) s.common_factor = -s.common_factor;
+  divide_exactly(s.at_p, s.common_factor);
+  divide_exactly(s.slope, s.common_factor);
+}
+
+// The coordinate of all points of a plane, if it is perpendicular to the axis.
+std::optional<Rational> common_coordinate(const Plane& plane, std::size_t axis) {
+  const std::array<const Integer*, 3> normal{&plane.a, &plane.b, &plane.c};
+  if (*normal[(axis + 1) % 3] != 0 || *normal[(axis + 2) % 3] != 0) return std::nullopt;
+  // The coefficients are coprime already.
+  Rational position;
+  position.get_num() = *normal[axis] < 0 ? plane.d : Integer(-plane.d);
+  position.get_den() = abs(*normal[axis]);
+  return position;
+}
+
 }  // namespace
 
 Homogeneous<Integer> homogeneous_of(const Point3& point) {
@@ -178,24 +204,25 @@ Plane plane_through(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q
   return {s.normal[0], s.normal[1], s.normal[2], s.offset};
 }
 
-Point3 meeting_point_of_line(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q,
-                             const Plane& plane) {
+Point3 meeting_point_of_line(const Point3& p, const Homogeneous<Integer>& homogeneous_p,
+                             const Homogeneous<Integer>& homogeneous_q, const Plane& plane) {
   thread_local LineScratch s;
-  s.common_w = p.w;
-  make_multiple(s.common_w, q.w);
-  scale_to_common_w(s.common_w, p, s.p, s.common_factor);
-  scale_to_common_w(s.common_w, q, s.direction, s.common_factor);
+  s.common_w = homogeneous_p.w;
+  make_multiple(s.common_w, homogeneous_q.w);
+  scale_to_common_w(s.common_w, homogeneous_p, s.p, s.common_factor);
+  scale_to_common_w(s.common_w, homogeneous_q, s.direction, s.common_factor);
   for (std::size_t i = 0; i < 3; ++i) s.direction[i] -= s.p[i];
-  halve_while_even(s.direction);
-  const std::array<const Integer*, 3> normal{&plane.a, &plane.b, &plane.c};
-  set_dot(s.slope, normal, s.direction);
-  set_dot(s.at_p, normal, s.p);
-  mpz_addmul(s.at_p.get_mpz_t(), plane.d.get_mpz_t(), s.common_w.get_mpz_t());
-  mpz_gcd(s.common_factor.get_mpz_t(), s.at_p.get_mpz_t(), s.slope.get_mpz_t());
-  if (s.slope < 0) s.common_factor = -s.common_factor;
-  divide_exactly(s.at_p, s.common_factor);
-  divide_exactly(s.slope, s.common_factor);
-  return {coordinate_of_line(s, 0), coordinate_of_line(s, 1), coordinate_of_line(s, 2)};
+  bool is_prepared = false;
+  const auto of_line_and_plane = [&](std::size_t i) {
+    if (!std::exchange(is_prepared, true)) set_slope(s, plane);
+    return coordinate_of_line(s, i);
+  };
+  const auto met = [&](std::size_t i) {
+    if (s.direction[i] == 0) return coordinate(p, i);
+    if (const std::optional<Rational> position = common_coordinate(plane, i)) return *position;
+    return of_line_and_plane(i);
+  };
+  return {met(0), met(1), met(2)};
 }
 
 PlaneOperand operand_of(const Plane& plane) {

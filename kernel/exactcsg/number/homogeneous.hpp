@@ -36,10 +36,12 @@ Homogeneous<Integer> homogeneous_of(const Point3& point);
 // REQUIRES p.w != 0
 Point3 point_of(const Homogeneous<Integer>& p);
 
-// Where the line through two points meets a plane. REQUIRES p != q, and that the line is not
-// parallel to the plane. COST: much less than of three planes: points are shorter than planes
-Point3 meeting_point_of_line(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q,
-                             const Plane& plane);
+// Where the line through two points meets a plane; `p` is the first of them. REQUIRES p != q, and
+// that the line is not parallel to the plane. COST: much less than of three planes: points are
+// shorter than planes. Coordinates that the line or the plane has in common with p or with all of
+// the plane are copied.
+Point3 meeting_point_of_line(const Point3& p, const Homogeneous<Integer>& homogeneous_p,
+                             const Homogeneous<Integer>& homogeneous_q, const Plane& plane);
 
 // The coprime coefficients of the plane through three points. THROWS Error(DegenerateFacet)
 Plane plane_through(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q,
