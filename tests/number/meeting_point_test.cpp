@@ -61,6 +61,34 @@ TEST(MeetingPoint, OfALineAndAPlane) {
   EXPECT_GT(compared, 2000);
 }
 
+TEST(MeetingPoint, OfAnEdgeAlongAnAxis) {
+  RandomPoints random(3);
+  int copied = 0;
+  for (int round = 0; round < 600; ++round) {
+    const Point3 p = random(round % 4);
+    Point3 q = p;
+    (round % 3 == 0 ? q.x : round % 3 == 1 ? q.y : q.z) += 1 + round % 5;
+    Point3 a = random(round % 4);
+    Point3 b = random(round % 4);
+    Point3 c = random(round % 4);
+    // Two of three times across the very axis.
+    const int across = round % 3 == 0 ? round / 3 % 3 : round % 3;
+    if (across == 0) a.x = b.x = c.x;
+    if (across == 1) a.y = b.y = c.y;
+    if (across == 2) a.z = b.z = c.z;
+    const auto first = reference::plane_through(p, q, random(0));
+    const auto second = reference::plane_through(p, q, random(0));
+    const auto third = reference::plane_through(a, b, c);
+    if (reference::determinant(first, second, third) == 0) continue;
+    const auto found = copied_meeting_point(p, q, plane_through(a, b, c));
+    EXPECT_EQ(found.has_value(), across == round % 3);
+    if (!found) continue;
+    ++copied;
+    EXPECT_EQ(*found, reference::meeting_point(first, second, third));
+  }
+  EXPECT_GT(copied, 200);
+}
+
 TEST(MeetingPoint, OfFacetsOfTetrahedra) {
   RandomPoints random(2);
   int compared = 0;

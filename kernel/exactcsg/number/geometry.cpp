@@ -75,7 +75,11 @@ Point3 Geometry::exact_point(const Vertex& v) const {
     const PlaneRef plane = v.planes[i];
     if (plane.is_wall()) continue;
     if (const auto line = common_points(*data_, v.planes[(i + 1) % 3], v.planes[(i + 2) % 3])) {
-      return meeting_point_of_line(point(line->first), data_->homogeneous(line->first),
+      const Point3& first = point(line->first);
+      if (auto copied = copied_meeting_point(first, point(line->second), exact_plane(plane))) {
+        return *std::move(copied);
+      }
+      return meeting_point_of_line(first, data_->homogeneous(line->first),
                                    data_->homogeneous(line->second), exact_plane(plane));
     }
   }

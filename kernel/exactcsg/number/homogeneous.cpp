@@ -225,6 +225,20 @@ Point3 meeting_point_of_line(const Point3& p, const Homogeneous<Integer>& homoge
   return {met(0), met(1), met(2)};
 }
 
+std::optional<Point3> copied_meeting_point(const Point3& p, const Point3& q, const Plane& plane) {
+  std::optional<std::size_t> along;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (coordinate(p, i) == coordinate(q, i)) continue;
+    if (along) return std::nullopt;
+    along = i;
+  }
+  const std::optional<Rational> position = common_coordinate(plane, *along);
+  if (!position) return std::nullopt;
+  Point3 result = p;
+  (*along == 0 ? result.x : *along == 1 ? result.y : result.z) = *position;
+  return result;
+}
+
 PlaneOperand operand_of(const Plane& plane) {
   PlaneOperand operand;
   operand.plane = &plane;

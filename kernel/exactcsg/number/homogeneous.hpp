@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "exactcsg/number/exact_tiers.hpp"
 #include "exactcsg/number/geometry.hpp"
@@ -42,6 +43,10 @@ Point3 point_of(const Homogeneous<Integer>& p);
 // the plane are copied.
 Point3 meeting_point_of_line(const Point3& p, const Homogeneous<Integer>& homogeneous_p,
                              const Homogeneous<Integer>& homogeneous_q, const Plane& plane);
+
+// The same if every coordinate is one that the line or the plane has in common, nullopt if not: an
+// edge along an axis, and a plane across that. COST: O(1), nothing is computed
+std::optional<Point3> copied_meeting_point(const Point3& p, const Point3& q, const Plane& plane);
 
 // The coprime coefficients of the plane through three points. THROWS Error(DegenerateFacet)
 Plane plane_through(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q,
