@@ -52,6 +52,17 @@ std::set<Pair> found_pairs(Boxes&& boxes) {
   return pairs;
 }
 
+// LAW box_pairs.1
+std::set<Pair> found_by_searches(const BoxHierarchy& boxes) {
+  std::set<Pair> pairs;
+  for (const BoxHierarchy::Search& search : boxes.searches()) {
+    boxes.for_each_pair(search, [&](std::uint32_t i, std::uint32_t j) {
+      EXPECT_TRUE(pairs.insert(std::minmax(i, j)).second) << i << ' ' << j;
+    });
+  }
+  return pairs;
+}
+
 std::set<Pair> expected_pairs(const std::vector<DoubleBox>& boxes) {
   std::vector<std::uint32_t> group(boxes.size());
   std::iota(group.begin(), group.end(), 0U);
@@ -62,9 +73,11 @@ std::set<Pair> expected_pairs(const std::vector<DoubleBox>& boxes) {
 void check_against_comparing_all(const std::vector<DoubleBox>& boxes) {
   const BoxHierarchy hierarchy(boxes);
   EXPECT_EQ(found_pairs(hierarchy), expected_pairs(boxes));
+  EXPECT_EQ(found_by_searches(hierarchy), expected_pairs(boxes));
   std::vector<std::uint32_t> group(boxes.size());
   for (std::uint32_t i = 0; i < group.size(); ++i) group[i] = i % 3;
   EXPECT_EQ(found_pairs(BoxHierarchy(boxes, group)), expected_pairs(boxes, group));
+  EXPECT_EQ(found_by_searches(BoxHierarchy(boxes, group)), expected_pairs(boxes, group));
   for (std::uint32_t i = 0; i < boxes.size(); i += 7) {
     std::set<std::uint32_t> found;
     hierarchy.for_each_meeting(
@@ -196,7 +209,27 @@ TEST(BoxPairs, OfGroupsAreThoseOfDifferentGroups) {
   }
 }
 
-TEST(BoxPairs, OfNothingAreNone) { EXPECT_TRUE(found_pairs(GroupedBoxes({}, {})).empty()); }
+TEST(BoxPairs, OfNothingAreNone) {
+  EXPECT_TRUE(found_pairs(GroupedBoxes({}, {})).empty());
+  EXPECT_TRUE(found_by_searches(BoxHierarchy(std::span<const DoubleBox>())).empty());
+}
+
+// More than the nodes of the level where the search is shared out; nearly all in one place too.
+TEST(BoxPairs, OfManyBoxesAreSharedOut) {
+  std::mt19937 random(12);
+  for (const double extent : {1000.0, 3.0}) {
+    std::uniform_real_distribution<double> place(0, extent);
+    std::vector<DoubleBox> boxes;
+    for (int i = 0; i < 12000; ++i) {
+      const double x = place(random);
+      const double y = place(random);
+      boxes.push_back({{x, y, 0}, {x + 0.01, y + 0.01, 1}});
+    }
+    const BoxHierarchy hierarchy(boxes);
+    EXPECT_GT(hierarchy.searches().size(), 50U);
+    EXPECT_EQ(found_by_searches(hierarchy), found_pairs(hierarchy));
+  }
+}
 
 }  // namespace
 }  // namespace exactcsg

@@ -226,6 +226,48 @@ BoxHierarchy::BoxHierarchy(std::span<const DoubleBox> boxes, std::span<const std
   level_begins_.push_back(nodes_.size());
 }
 
+std::vector<BoxHierarchy::Search> BoxHierarchy::searches() const {
+  constexpr std::size_t most_nodes = 128;
+  constexpr std::size_t least_level = 4;  // of dozens of boxes
+  std::vector<Search> result;
+  if (boxes_.empty()) return result;
+  std::size_t lowest = std::min(least_level, top_level());
+  while (level_size(lowest) > most_nodes) ++lowest;
+  add_searches_within(top_level(), 0, lowest, result);
+  return result;
+}
+
+void BoxHierarchy::add_searches_within(std::size_t level, std::size_t node, std::size_t lowest,
+                                       std::vector<Search>& result) const {
+  if (level == lowest) {
+    result.push_back({level, node, node});
+    return;
+  }
+  const std::size_t first = 2 * node;
+  add_searches_within(level - 1, first, lowest, result);
+  if (first + 1 == level_size(level - 1)) return;
+  add_searches_within(level - 1, first + 1, lowest, result);
+  const DoubleBox* boxes = level_boxes(level - 1);
+  if (meet(boxes[first], boxes[first + 1])) {
+    add_searches_between(level - 1, first, first + 1, lowest, result);
+  }
+}
+
+void BoxHierarchy::add_searches_between(std::size_t level, std::size_t a, std::size_t b,
+                                        std::size_t lowest, std::vector<Search>& result) const {
+  if (level == lowest) {
+    result.push_back({level, a, b});
+    return;
+  }
+  const DoubleBox* boxes = level_boxes(level - 1);
+  const std::size_t end = std::min(2 * b + 2, level_size(level - 1));
+  for (std::size_t i = 2 * a; i < 2 * a + 2; ++i) {
+    for (std::size_t j = 2 * b; j < end; ++j) {
+      if (meet(boxes[i], boxes[j])) add_searches_between(level - 1, i, j, lowest, result);
+    }
+  }
+}
+
 std::vector<std::uint32_t> GroupedBoxes::groups_of(std::size_t count,
                                                    std::span<const std::uint32_t> begins) {
   std::vector<std::uint32_t> groups(count);

@@ -60,6 +60,24 @@ class BoxHierarchy {
     if (!boxes_.empty()) visit_pairs_within(top_level(), 0, visit);
   }
 
+  // A share of the search for pairs: those within a node, or between two.
+  struct Search {
+    std::size_t level;
+    std::size_t first;
+    std::size_t second;
+  };
+  // Shares that several threads can search at once; they depend on the boxes alone.
+  std::vector<Search> searches() const;
+  // LAW box_pairs.1  for_each_pair visits every pair in one of the searches.
+  template <class Visit>
+  void for_each_pair(const Search& search, Visit visit) const {
+    if (search.first == search.second) {
+      visit_pairs_within(search.level, search.first, visit);
+    } else {
+      visit_pairs_between(search.level, search.first, search.second, visit);
+    }
+  }
+
   // visit(i) for each box that meets the query.
   template <class Visit>
   void for_each_meeting(const DoubleBox& query, Visit visit) const {
@@ -90,6 +108,12 @@ class BoxHierarchy {
   bool is_wanted(std::size_t i, std::size_t j) const {
     return groups_.empty() || groups_[i] != groups_[j];
   }
+
+  // Down to nodes of the level `lowest`.
+  void add_searches_within(std::size_t level, std::size_t node, std::size_t lowest,
+                           std::vector<Search>& result) const;
+  void add_searches_between(std::size_t level, std::size_t a, std::size_t b, std::size_t lowest,
+                            std::vector<Search>& result) const;
 
   // Recursion is as deep as the logarithm of the number of boxes.
   template <class Visit>
@@ -178,6 +202,8 @@ class GroupedBoxes {
   void for_each_pair(Visit visit) const {
     hierarchy_.for_each_pair(visit);
   }
+
+  const BoxHierarchy& hierarchy() const { return hierarchy_; }
 
  private:
   static std::vector<std::uint32_t> groups_of(std::size_t count,

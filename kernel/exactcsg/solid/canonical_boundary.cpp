@@ -829,26 +829,35 @@ class Merger {
   // primitive need not be looked at.
   void touch_edges() {
     std::vector<Span> all = spans();
-    const std::size_t primitives = scene_.primitives.size();
-    const auto group_of = [primitives](const Span& span) {
-      return std::min<std::size_t>(span.primitive, primitives);
-    };
-    sort_in_buckets(all, primitives + 1, group_of, [](const Span& a, const Span& b) {
-      return std::tie(a.line, a.from, a.to) < std::tie(b.line, b.from, b.to);
+    sort_by_primitive(all);
+    std::vector<DoubleBox> boxes(all.size());
+    in_parallel_parts(threads_, all.size(), [&](std::size_t i) {
+      boxes[i] = join(box_of(vertices_[all[i].from]), box_of(vertices_[all[i].to]));
     });
-    std::vector<DoubleBox> boxes;
     std::vector<std::uint32_t> group_begins;
-    boxes.reserve(all.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) {
       const Span& span = all[i];
-      boxes.push_back(join(box_of(vertices_[span.from]), box_of(vertices_[span.to])));
       if (i == 0 || span.primitive == none || span.primitive != all[i - 1].primitive) {
         group_begins.push_back(i);
       }
     }
-    GroupedBoxes(boxes, group_begins).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-      touch(all[i], all[j]);
+    const GroupedBoxes grouped(boxes, group_begins);
+    // All threads look for points of contact; what they change is done in one order.
+    const std::vector<BoxHierarchy::Search> searches = grouped.hierarchy().searches();
+    std::vector<std::vector<Contact>> contacts(searches.size());
+    std::vector<TierStatistics> tiers(searches.size());
+    in_parallel(threads_, searches.size(), [&](std::size_t search) {
+      check();
+      TierStatistics tiers_here;
+      grouped.hierarchy().for_each_pair(searches[search], [&](std::uint32_t i, std::uint32_t j) {
+        add_contact(all[i], all[j], contacts[search], tiers_here);
+      });
+      tiers[search] = tiers_here;
     });
+    for (const TierStatistics& part : tiers) statistics_ += part;
+    for (const std::vector<Contact>& found : contacts) {
+      for (const Contact& contact : found) set_contact(contact);
+    }
     for (auto& [line, touching] : touching_) {
       const std::span<const VertexNumber> stations = stations_of(line);
       touching.insert(touching.end(), stations.begin(), stations.end());
@@ -856,6 +865,23 @@ class Merger {
       add_stations(line, touching, stations_);
     }
     for (auto& [edge, cuts] : cuts_) sort_from(edge[0], edge[1], cuts);
+  }
+
+  // Those of no primitive last.
+  void sort_by_primitive(std::vector<Span>& spans) const {
+    const std::size_t primitives = scene_.primitives.size();
+    const std::size_t lines = lines_.size() + settled_edges_.size();
+    const std::size_t buckets_of_lines = std::max<std::size_t>(1, spans.size() / 2);
+    const auto bucket_of = [=](const Span& span) {
+      if (span.primitive != none) return std::size_t{span.primitive};
+      return primitives + span.line * buckets_of_lines / lines;
+    };
+    sort_in_buckets(
+        spans, primitives + buckets_of_lines, bucket_of,
+        [](const Span& a, const Span& b) {
+          return std::tie(a.line, a.from, a.to) < std::tie(b.line, b.from, b.to);
+        },
+        threads_);
   }
 
   // Points between two others, each once, in the order in which one goes from the first to the
@@ -880,15 +906,24 @@ class Merger {
     }
   }
 
+  // A point that two spans have in common.
+  struct Contact {
+    Span a;
+    Span b;
+    Vertex point;
+    VertexNumber number;  // of an end of one of them; or none: in the middle of both
+  };
+
   // The sides of a span's ends with respect to a plane.
-  std::array<Sign, 2> sides(const Span& span, PlaneRef plane) {
-    return {geometry_.side(vertices_[span.from], plane, statistics_),
-            geometry_.side(vertices_[span.to], plane, statistics_)};
+  std::array<Sign, 2> sides(const Span& span, PlaneRef plane, TierStatistics& statistics) const {
+    return {geometry_.side(vertices_[span.from], plane, statistics),
+            geometry_.side(vertices_[span.to], plane, statistics)};
   }
 
   // Spans of one line may overlap where one of them is a settled edge, whose line has no number:
   // where such a span ends inside another, so do edges of other directions, which touch it there.
-  void touch(const Span& a, const Span& b) {
+  void add_contact(const Span& a, const Span& b, std::vector<Contact>& result,
+                   TierStatistics& statistics) const {
     if (a.line == b.line) return;
     if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) return;
     const std::array<PlaneRef, 2> planes_a = planes_of(a);
@@ -896,7 +931,7 @@ class Merger {
     std::optional<PlaneRef> crossing;
     std::array<Sign, 2> crossing_sides{};
     for (const PlaneRef plane : planes_b) {
-      const auto side = sides(a, plane);
+      const auto side = sides(a, plane, statistics);
       if (side[0] == side[1]) {
         if (side[0] != Sign::Zero) return;
         continue;
@@ -906,7 +941,7 @@ class Merger {
     }
     if (!crossing) return;
     for (const PlaneRef plane : planes_a) {
-      const auto side = sides(b, plane);
+      const auto side = sides(b, plane, statistics);
       if (side[0] == side[1] && side[0] != Sign::Zero) return;
     }
     // The point of a's line in the crossing plane; it is on b's line iff in b's other plane as
@@ -923,28 +958,33 @@ class Merger {
       point = geometry_.meet(planes_a[0], planes_a[1], *crossing);
     }
     const PlaneRef other = *crossing == planes_b[0] ? planes_b[1] : planes_b[0];
-    if (geometry_.side(point, other, statistics_) != Sign::Zero) return;
-    if (!within(point, b)) return;
+    if (geometry_.side(point, other, statistics) != Sign::Zero) return;
+    if (!within(point, b, statistics)) return;
     for (const VertexNumber end : {b.from, b.to}) {
-      if (number == none && geometry_.same_position(point, vertices_[end], statistics_)) {
+      if (number == none && geometry_.same_position(point, vertices_[end], statistics)) {
         number = end;
       }
     }
-    if (number == none) number = known_touching_point(point);
+    result.push_back({a, b, point, number});
+  }
+
+  void set_contact(const Contact& contact) {
+    const VertexNumber number =
+        contact.number == none ? known_touching_point(contact.point) : contact.number;
     is_vertex_[number] = 1;
-    add_station(a, number);
-    add_station(b, number);
+    add_station(contact.a, number);
+    add_station(contact.b, number);
   }
 
   // Points of the line only; both ends included.
-  bool within(const Vertex& point, const Span& span) {
+  bool within(const Vertex& point, const Span& span, TierStatistics& statistics) const {
     const auto low =
-        geometry_.compare_position(vertices_[span.from], vertices_[span.to], statistics_) < 0
+        geometry_.compare_position(vertices_[span.from], vertices_[span.to], statistics) < 0
             ? span.from
             : span.to;
     const VertexNumber high = low == span.from ? span.to : span.from;
-    return geometry_.compare_position(vertices_[low], point, statistics_) <= 0 &&
-           geometry_.compare_position(point, vertices_[high], statistics_) <= 0;
+    return geometry_.compare_position(vertices_[low], point, statistics) <= 0 &&
+           geometry_.compare_position(point, vertices_[high], statistics) <= 0;
   }
 
   // Also finds points that are stations of a line but were no vertices so far.
