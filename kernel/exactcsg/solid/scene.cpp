@@ -208,20 +208,23 @@ Plane plane_across(const Plane& facet, const Homogeneous<Integer>& p,
   return plane_through(p, q, along_axis);
 }
 
-SceneBounds bounds_of(const Scene& scene) {
+SceneBounds bounds_of(const Scene& scene, unsigned threads) {
   SceneBounds result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.facets[axis].reserve(scene.facets.size());
+    result.facets[axis].resize(scene.facets.size());
     result.primitives[axis].resize(scene.primitives.size());
   }
-  for (const SceneFacet& facet : scene.facets) {
+  in_parallel_parts(threads, scene.facets.size(), [&](std::size_t f) {
     std::array<Range, 3> bounds;
-    widen(bounds, scene.corners_of(facet));
+    widen(bounds, scene.corners_of(scene.facets[f]));
+    for (std::size_t axis = 0; axis < 3; ++axis) result.facets[axis][f] = bounds[axis];
+  });
+  for (std::size_t f = 0; f < scene.facets.size(); ++f) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      result.facets[axis].push_back(bounds[axis]);
-      Range& whole = result.primitives[axis][facet.primitive];
-      whole.lower = std::min(whole.lower, bounds[axis].lower);
-      whole.upper = std::max(whole.upper, bounds[axis].upper);
+      const Range& bounds = result.facets[axis][f];
+      Range& whole = result.primitives[axis][scene.facets[f].primitive];
+      whole.lower = std::min(whole.lower, bounds.lower);
+      whole.upper = std::max(whole.upper, bounds.upper);
     }
   }
   return result;
@@ -234,14 +237,27 @@ class SceneBuilder {
     add_shapes(threads);
   }
 
-  Scene finish() && {
+  Scene finish(unsigned threads) && {
     Scene scene{
         std::move(builder_).build(), std::move(primitives_), {}, {}, {}, {}, std::move(tree_), {}};
     scene.root = root_cell();
-    scene.facets.reserve(facets_.size());
-    scene.corners.reserve(corner_total_);
-    for (const PendingFacet& facet : facets_) add_facet(scene, facet);
-    scene.bounds = bounds_of(scene);
+    scene.corners.resize(corners_.size());
+    in_parallel_parts(threads, corners_.size(), [&](std::size_t i) {
+      const OrientedPlaneRef side_plane = scene.geometry.plane(corners_[i].side_plane);
+      scene.corners[i] = {corners_[i].point, side_plane.plane.table_index()};
+    });
+    corners_ = {};
+    scene.facets.resize(facets_.size());
+    in_parallel_parts(threads, facets_.size(), [&](std::size_t f) {
+      scene.facets[f] = {facets_[f].primitive, facets_[f].corner_count == 0,
+                         scene.geometry.plane(facets_[f].plane), facets_[f].first_corner,
+                         facets_[f].corner_count};
+    });
+    facets_ = {};
+    for (SceneFacet& facet : scene.facets) {
+      if (facet.is_half_space) add_half_space_polygon(scene, facet);
+    }
+    scene.bounds = bounds_of(scene, threads);
     return scene;
   }
 
@@ -253,8 +269,8 @@ class SceneBuilder {
   struct PendingFacet {
     PrimitiveIndex primitive;
     std::uint32_t plane;
-    std::size_t first_corner;
-    std::size_t corner_count;  // 0: a half-space
+    std::uint32_t first_corner;
+    std::uint32_t corner_count;  // 0: a half-space
   };
 
   // What becomes of a primitive; it lasts as long as the solid.
@@ -373,8 +389,8 @@ class SceneBuilder {
     std::size_t side = 0;
     for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
       const Facet& facet = polyhedron.facets[f];
-      facets_.push_back({index, planes[f], corners_.size(), facet.size()});
-      corner_total_ += facet.size();
+      facets_.push_back({index, planes[f], static_cast<std::uint32_t>(corners_.size()),
+                         static_cast<std::uint32_t>(facet.size())});
       for (std::size_t i = 0; i < facet.size(); ++i, ++side) {
         const std::uint32_t from = facet[i];
         const std::uint32_t to = facet[(i + 1) % facet.size()];
@@ -432,22 +448,11 @@ class SceneBuilder {
     return cell;
   }
 
-  void add_facet(Scene& scene, const PendingFacet& pending) const {
-    const bool is_half_space = pending.corner_count == 0;
-    const auto stored = [&] {
-      return static_cast<std::uint32_t>(is_half_space ? scene.half_space_corners.size()
-                                                      : scene.corners.size());
-    };
-    SceneFacet facet{pending.primitive, is_half_space, scene.geometry.plane(pending.plane),
-                     stored(), 0};
-    if (is_half_space) append_half_space_polygon(scene, facet.plane);
-    for (std::size_t i = 0; i < pending.corner_count; ++i) {
-      const PendingCorner& corner = corners_[pending.first_corner + i];
-      scene.corners.push_back(
-          {corner.point, scene.geometry.plane(corner.side_plane).plane.table_index()});
-    }
-    facet.corner_count = stored() - facet.first_corner;
-    scene.facets.push_back(facet);
+  static void add_half_space_polygon(Scene& scene, SceneFacet& facet) {
+    facet.first_corner = static_cast<std::uint32_t>(scene.half_space_corners.size());
+    append_half_space_polygon(scene, facet.plane);
+    facet.corner_count =
+        static_cast<std::uint32_t>(scene.half_space_corners.size()) - facet.first_corner;
   }
 
   // The plane clipped to the root cell: a parallelogram between the walls of the two axes that the
@@ -495,7 +500,6 @@ class SceneBuilder {
   std::vector<ScenePrimitive> primitives_;
   std::vector<PendingFacet> facets_;
   std::vector<PendingCorner> corners_;
-  std::size_t corner_total_ = 0;
   std::unordered_map<const Polyhedron*, PrimitiveIndex> known_;
   std::shared_ptr<const Polyhedron> last_kind_;
   std::shared_ptr<const std::vector<std::uint32_t>> last_neighbours_;
@@ -538,7 +542,7 @@ Vertex between_walls(const Geometry& geometry, const std::array<double, 3>& plac
 }
 
 Scene make_scene(const Solid& solid, unsigned threads) {
-  return SceneBuilder(solid, threads).finish();
+  return SceneBuilder(solid, threads).finish(threads);
 }
 
 }  // namespace exactcsg
