@@ -122,7 +122,6 @@ class FlatSides {
   void set_facet(const Facet& facet, const std::array<std::uint32_t, 3>& triple) {
     facet_ = &facet;
     triple_ = triple;
-    plane_.reset();
     origin_ = position_of(near_[triple[0]].near);
     normal_ = cross(difference(position_of(near_[triple[1]].near), origin_),
                     difference(position_of(near_[triple[2]].near), origin_));
@@ -139,21 +138,8 @@ class FlatSides {
   bool is_in_plane(std::uint32_t corner) {
     const CertifiedVector to_corner = difference(position_of(near_[corner].near), origin_);
     if (sign_of_certain(dot(normal_, to_corner)) != Sign::Zero) return false;
-    if (!signs_ && planes_ > polyhedron_.vertices.size() / 4) signs_.emplace(polyhedron_.vertices);
-    if (signs_) {
-      return signs_->orientation(triple_[0], triple_[1], triple_[2], corner) == Sign::Zero;
-    }
-    if (!plane_) {
-      plane_ = plane_through(exact(triple_[0]), exact(triple_[1]), exact(triple_[2]));
-      ++planes_;
-    }
-    const Homogeneous<Integer> point = exact(corner);
-    return plane_->a * point.x + plane_->b * point.y + plane_->c * point.z + plane_->d * point.w ==
-           0;
-  }
-
-  Homogeneous<Integer> exact(std::uint32_t corner) const {
-    return homogeneous_of(polyhedron_.vertices[corner]);
+    if (!signs_) signs_.emplace(polyhedron_.vertices);
+    return signs_->orientation(triple_[0], triple_[1], triple_[2], corner) == Sign::Zero;
   }
 
   const Polyhedron& polyhedron_;
@@ -162,9 +148,7 @@ class FlatSides {
   std::array<std::uint32_t, 3> triple_{};
   CertifiedVector origin_;
   CertifiedVector normal_;
-  std::optional<Plane> plane_;            // of the facet, once it was needed
-  std::size_t planes_ = 0;                // how many facets needed theirs
-  std::optional<PolyhedronSigns> signs_;  // made when there are many of them
+  std::optional<PolyhedronSigns> signs_;  // once doubles do not tell
 };
 
 // `neighbours` as of neighbours_of.
