@@ -53,6 +53,25 @@ std::vector<std::uint32_t> representatives(const std::vector<Point3>& points) {
   return first;
 }
 
+// Keeps the points that are listed, each once, in the order of the list. They are swapped into
+// their places: moving a rational allocates.
+void keep_in_order(std::vector<Point3>& points, const std::vector<std::uint32_t>& kept) {
+  std::vector<std::uint32_t> place_of(points.size());  // of the points given
+  std::iota(place_of.begin(), place_of.end(), 0U);
+  std::vector<std::uint32_t> point_at = place_of;
+  for (std::uint32_t place = 0; place < kept.size(); ++place) {
+    const std::uint32_t from = place_of[kept[place]];
+    if (from == place) continue;
+    swap(points[place].x, points[from].x);
+    swap(points[place].y, points[from].y);
+    swap(points[place].z, points[from].z);
+    const std::uint32_t displaced = point_at[place];
+    point_at[from] = displaced;
+    place_of[displaced] = from;
+  }
+  points.resize(kept.size());
+}
+
 // A projection in which the triangle keeps a non-zero area, if it has one.
 bool find_projection(const PolyhedronSigns& signs, FacetFrame& frame) {
   const auto [a, b, c] = frame.corners;
@@ -180,10 +199,7 @@ Polyhedron with_distinct_vertices(Polyhedron polyhedron) {
       v = name;
     }
   }
-  std::vector<Point3> vertices;
-  vertices.reserve(kept.size());
-  for (const std::uint32_t v : kept) vertices.push_back(std::move(polyhedron.vertices[v]));
-  polyhedron.vertices = std::move(vertices);
+  keep_in_order(polyhedron.vertices, kept);
   return polyhedron;
 }
 

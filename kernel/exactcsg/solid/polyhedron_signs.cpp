@@ -275,14 +275,6 @@ PolyhedronSigns::NearPlane PolyhedronSigns::near_plane(Index a, Index b, Index c
   return plane;
 }
 
-Sign PolyhedronSigns::certain_side(const NearPlane& plane, Index d) const {
-  const Differences w = differences(plane.corner, approximate_[d]);
-  const double value = plane.normal[0] * w.entries[0] + plane.normal[1] * w.entries[1] +
-                       plane.normal[2] * w.entries[2];
-  const double bound = plane.slope * w.largest + plane.offset;
-  return value > bound ? Sign::Positive : value < -bound ? Sign::Negative : Sign::Zero;
-}
-
 Sign PolyhedronSigns::turn(CoordinateIndex dropped, Index a, Index b, Index c) const {
   const CoordinateIndex i = (dropped + 1) % 3;
   const CoordinateIndex j = (dropped + 2) % 3;

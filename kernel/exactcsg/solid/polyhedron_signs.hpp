@@ -8,7 +8,9 @@
 // For what looks at one polyhedron at a time, as the checks of primitive.hpp and hulls do; the
 // evaluator has the richer number/geometry.hpp.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -51,7 +53,18 @@ class PolyhedronSigns {
   };
   NearPlane near_plane(Index a, Index b, Index c) const;
   // orientation(a, b, c, d) for the plane of a, b and c, or Zero where doubles do not tell.
-  Sign certain_side(const NearPlane& plane, Index d) const;
+  Sign certain_side(const NearPlane& plane, Index d) const {
+    const std::array<double, 3>& point = approximate_[d];
+    double value = 0;
+    double largest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double difference = point[i] - plane.corner[i];
+      value += plane.normal[i] * difference;
+      largest = std::max(largest, std::abs(difference));
+    }
+    const double bound = plane.slope * largest + plane.offset;
+    return value > bound ? Sign::Positive : value < -bound ? Sign::Negative : Sign::Zero;
+  }
 
   // The sign of one component of (b - a) x (c - a): the turn a, b, c in the projection along it.
   Sign turn(CoordinateIndex dropped, Index a, Index b, Index c) const;

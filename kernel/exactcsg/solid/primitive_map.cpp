@@ -18,7 +18,11 @@ Rational map_coordinate(const std::array<Rational, 4>& row, const Point3& p) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (sgn(row[i]) == 0 || sgn(*coordinates[i]) == 0) continue;
     if (row[i] == 1) {
-      sum += *coordinates[i];
+      if (sgn(sum) == 0) {
+        sum = *coordinates[i];
+      } else {
+        sum += *coordinates[i];
+      }
     } else {
       sum += row[i] * *coordinates[i];
     }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "exactcsg/io/openscad/degree_trigonometry.hpp"
+#include "exactcsg/number/common_denominator.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg::io::openscad {
@@ -183,16 +184,14 @@ IntegerPolyhedron with_common_denominator(const Polyhedron& polyhedron) {
   IntegerPolyhedron result;
   result.facets = polyhedron.facets;
   for (const Point3& p : polyhedron.vertices) {
-    for (const Rational* c : {&p.x, &p.y, &p.z}) {
-      result.denominator = lcm(result.denominator, c->get_den());
-    }
+    for (const Rational* c : {&p.x, &p.y, &p.z}) make_multiple(result.denominator, c->get_den());
   }
   result.vertices.reserve(polyhedron.vertices.size());
   for (const Point3& p : polyhedron.vertices) {
     std::array<Integer, 3> v;
     std::size_t axis = 0;
     for (const Rational* c : {&p.x, &p.y, &p.z}) {
-      v[axis++] = c->get_num() * (result.denominator / c->get_den());
+      set_scaled(v[axis++], *c, result.denominator);
     }
     result.vertices.push_back(std::move(v));
   }
