@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <boost/container/static_vector.hpp>
+
 #include "exactcsg/csg/prune.hpp"
 #include "exactcsg/solid/mesh_membership.hpp"
 #include "exactcsg/solid/per_thread.hpp"
@@ -486,6 +488,8 @@ class FacetSample {
 
   std::span<const double> lower(std::size_t axis) const { return {lower_[axis].data(), count_}; }
   std::span<const double> upper(std::size_t axis) const { return {upper_[axis].data(), count_}; }
+  // From the least lower end to the greatest upper end.
+  const Range& extent(std::size_t axis) const { return extents_[axis]; }
 
  private:
   // One of each stretch of facets, not at a fixed place in it: a fixed stride would pick the same
@@ -500,6 +504,8 @@ class FacetSample {
   void set(std::size_t axis, const Range& bounds) {
     lower_[axis][count_] = bounds.lower;
     upper_[axis][count_] = bounds.upper;
+    extents_[axis].lower = std::min(extents_[axis].lower, bounds.lower);
+    extents_[axis].upper = std::max(extents_[axis].upper, bounds.upper);
   }
 
   double stride_;
@@ -507,6 +513,7 @@ class FacetSample {
   std::uint64_t noise_ = 0x9e3779b97f4a7c15U;
   std::array<std::array<double, sample_size>, 3> lower_;
   std::array<std::array<double, sample_size>, 3> upper_;
+  std::array<Range, 3> extents_;
 };
 
 // The predicted work of the two children; facets that straddle or touch the wall count in both.
@@ -553,38 +560,37 @@ std::optional<Range> gap_at_median(std::span<const double> lower, std::span<cons
 // In a gap between facets or the middle of all, and not at a face where it can be helped. Faces of
 // models lie at round coordinates; the fractions are not round.
 std::optional<Division> Decomposition::choose_division(const CellTask& task) const {
+  struct Gap {
+    std::size_t axis;
+    Range range;
+  };
   struct Candidate {
     double cost;
     Division division;
   };
   const FacetSample sample(scene_, task);
-  std::array<std::vector<Range>, 3> gaps;  // along each axis, in one of which to divide
+  boost::container::static_vector<Gap, 6> gaps;  // in one of which to divide
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (const auto gap = gap_at_median(sample.lower(axis), sample.upper(axis))) {
-      gaps[axis].push_back(*gap);
+      gaps.push_back({axis, *gap});
     }
-    gaps[axis].push_back({*std::ranges::min_element(sample.lower(axis)),
-                          *std::ranges::max_element(sample.upper(axis))});
+    gaps.push_back({axis, sample.extent(axis)});
   }
-  std::vector<Candidate> candidates;
+  boost::container::static_vector<Candidate, 6> candidates;
   for (const double fraction : {0.4609375, 0.55859375, 0.3671875, 0.640625}) {
     candidates.clear();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const Range& gap : gaps[axis]) {
-        const Division division{
-            static_cast<Axis>(axis),
-            round_wall_position(gap.lower + fraction * (gap.upper - gap.lower))};
-        if (!(task.cell.lower[axis] < division.position &&
-              division.position < task.cell.upper[axis])) {
-          continue;
-        }
+    for (const auto& [axis, gap] : gaps) {
+      const Division division{static_cast<Axis>(axis),
+                              round_wall_position(gap.lower + fraction * (gap.upper - gap.lower))};
+      if (task.cell.lower[axis] < division.position && division.position < task.cell.upper[axis]) {
         candidates.push_back({predicted_cost(sample, axis, division.position), division});
       }
     }
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-    for (const Candidate& candidate : candidates) {
-      if (!has_facet_in_wall(task, candidate.division)) return candidate.division;
+    const auto is_cheaper = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
+    while (!candidates.empty()) {
+      const auto best = std::min_element(candidates.begin(), candidates.end(), is_cheaper);
+      if (!has_facet_in_wall(task, best->division)) return best->division;
+      candidates.erase(best);
     }
   }
   return std::nullopt;
