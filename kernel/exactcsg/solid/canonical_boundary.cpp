@@ -538,6 +538,13 @@ class Merger {
     return order;
   }
 
+  struct Event {
+    std::uint32_t rank;
+    bool opens;
+    bool forward;
+    PieceNumber piece;
+  };
+
   void add_up(const std::vector<PieceEdge>& edges, const std::vector<LineNumber>& line_of_edge) {
     const std::vector<std::uint32_t> order = edges_by_line(edges, line_of_edge);
     content_.resize(lines_.size());
@@ -552,6 +559,7 @@ class Merger {
           segments[part].reserve(part_end - part_begin);
           std::vector<std::uint32_t>& rank = ranks();
           std::vector<VertexNumber> stations;
+          std::vector<Event> events;
           for (std::size_t begin = part_begin; begin < part_end;) {
             const LineNumber line = line_at(begin);
             std::size_t end = begin;
@@ -570,7 +578,7 @@ class Merger {
                 ++group_end;
               }
               add_up_on_plane(edges, std::span(order).subspan(group, group_end - group), stations,
-                              rank, segments[part]);
+                              rank, events, segments[part]);
               group = group_end;
             }
             content_[line].segment_count =
@@ -597,23 +605,16 @@ class Merger {
     return result;
   }
 
-  struct Event {
-    std::uint32_t rank;
-    bool opens;
-    bool forward;
-    PieceNumber piece;
-  };
-
   void add_up_on_plane(const std::vector<PieceEdge>& edges, std::span<const std::uint32_t> group,
                        const std::vector<VertexNumber>& stations,
-                       const std::vector<std::uint32_t>& rank, std::vector<Segment>& result) {
+                       const std::vector<std::uint32_t>& rank, std::vector<Event>& events,
+                       std::vector<Segment>& result) {
     if (group.size() == 1) {
       const PieceEdge& edge = edges[group[0]];
       result.push_back({edge.plane, edge.from, edge.to, edge.piece});
       return;
     }
-    std::vector<Event> events;
-    events.reserve(2 * group.size());
+    events.clear();
     for (const std::uint32_t i : group) {
       const PieceEdge& edge = edges[i];
       const bool forward = rank[edge.from] < rank[edge.to];
@@ -696,6 +697,12 @@ class Merger {
     return std::span(segments_).subspan(content_[line].first_segment, content_[line].segment_count);
   }
 
+  // Of the lines from `begin` to `end`, of which there is one at least.
+  std::size_t segment_count(std::size_t begin, std::size_t end) const {
+    const LineContent& last = content_[end - 1];
+    return last.first_segment + last.segment_count - content_[begin].first_segment;
+  }
+
   std::span<const VertexNumber> stations_of(LineNumber line) const {
     return std::span(stations_).subspan(content_[line].first_station, content_[line].station_count);
   }
@@ -723,6 +730,7 @@ class Merger {
     std::vector<std::vector<Span>> result(lines.count() + settled.count());
     in_parallel(threads_, lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
       std::vector<std::uint32_t>& rank = ranks();
+      result[part].reserve(segment_count(begin, end));
       for (auto line = static_cast<LineNumber>(begin); line < end; ++line) {
         add_spans(line, rank, result[part]);
       }
@@ -1074,6 +1082,7 @@ class Merger {
     std::vector<std::vector<SingleFace>> singles(settled.count());
     in_parallel(threads_, lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
       std::vector<std::uint32_t>& rank = ranks();
+      edges[part].reserve(segment_count(begin, end));
       for (auto line = static_cast<LineNumber>(begin); line < end; ++line) {
         for_each_run(line, rank, [&](const Run& run) {
           edges[part].push_back({run.owner.plane, faces_.find(run.owner.piece), run.from, run.to});

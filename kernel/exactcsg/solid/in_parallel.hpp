@@ -4,13 +4,14 @@
 // Loops whose rounds do not depend on each other, run on one or several threads.
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include "exactcsg/skeleton/hand_over.hpp"
 
@@ -24,19 +25,34 @@ void in_parallel(unsigned threads, std::size_t count, const Round& round) {
     for (std::size_t i = 0; i < count; ++i) round(i);
     return;
   }
-  using namespace skeleton::detail;
   const std::size_t allowed =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  const std::size_t used = threads == 0 ? allowed : std::min<std::size_t>(threads, allowed);
+  const std::size_t used =
+      std::min({threads == 0 ? allowed : std::size_t{threads}, allowed, count});
+  // Every task takes some rounds after the other until none is left.
+  const std::size_t at_once = std::max<std::size_t>(1, count / (64 * used));
+  std::atomic<std::size_t> next = 0;
+  const auto take_rounds = [&] {
+    try {
+      while (true) {
+        const std::size_t begin = next.fetch_add(at_once, std::memory_order_relaxed);
+        if (begin >= count) return;
+        const std::size_t end = std::min(begin + at_once, count);
+        for (std::size_t i = begin; i < end; ++i) round(i);
+      }
+    } catch (...) {
+      next.store(count, std::memory_order_relaxed);
+      throw;
+    }
+  };
   tbb::task_arena arena(static_cast<int>(used));
-  hand_over(&arena);
-  const TakeOverAtEnd before_unwinding(&used);
+  const skeleton::detail::TakeOverAtEnd before_unwinding(&next);
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      take_over(&arena);
-      const HandOverAtEnd done(&used);
-      round(i);
-    });
+    tbb::task_group group;
+    for (std::size_t task = 1; task < used; ++task) {
+      group.run(skeleton::detail::HandedOver(take_rounds, &next));
+    }
+    group.run_and_wait(take_rounds);
   });
 }
 
