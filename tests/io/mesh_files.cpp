@@ -312,8 +312,8 @@ TEST(MeshTriangulate, FacesWithHolesWithoutNewVertices) {
   // A closed surface of genus 0 with V vertices has 2 V - 4 triangles.
   EXPECT_EQ(facets.size(), 2U * 16 - 4);
   EXPECT_TRUE(edges_balance(facets));
-  EXPECT_EQ(volume_of(boundary.vertices, facets), Rational(64 - 4) / 27);
-  make_mesh({boundary.vertices, facets});  // planar, closed, not crossing
+  EXPECT_EQ(volume_of(to_vector(boundary.vertices), facets), Rational(64 - 4) / 27);
+  make_mesh({to_vector(boundary.vertices), facets});  // planar, closed, not crossing
 }
 
 TEST(MeshTriangulate, FacesThatTouchThemselvesAndAreTilted) {

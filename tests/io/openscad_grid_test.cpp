@@ -15,7 +15,7 @@ namespace {
 std::vector<Point3> corners(std::string_view text) {
   ReadOptions options;
   options.rounding = Rounding::OpenScadGrid;
-  return evaluate(read_openscad_csg(text, "x.csg", options).solid).vertices;
+  return to_vector(evaluate(read_openscad_csg(text, "x.csg", options).solid).vertices);
 }
 
 Point3 on_grid(long x, long y, long z) {

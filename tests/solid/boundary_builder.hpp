@@ -39,19 +39,21 @@ inline Plane plane_of(const std::vector<Point3>& loop) {
 // REQUIRES every side of a loop to be one maximal edge.
 inline Boundary boundary_of_faces(const std::vector<Loops>& faces) {
   Boundary b;
+  std::vector<Point3> vertices;
   std::vector<Plane> planes;
   for (const Loops& loops : faces) {
-    for (const auto& loop : loops) b.vertices.insert(b.vertices.end(), loop.begin(), loop.end());
+    for (const auto& loop : loops) vertices.insert(vertices.end(), loop.begin(), loop.end());
     planes.push_back(plane_of(loops.front()));
   }
-  std::sort(b.vertices.begin(), b.vertices.end());
-  b.vertices.erase(std::unique(b.vertices.begin(), b.vertices.end()), b.vertices.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  b.vertices = ExactPoints(vertices);
   std::sort(planes.begin(), planes.end(), plane_less);
   planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
   b.plane_count = static_cast<std::uint32_t>(planes.size());
   const auto index = [&](const Point3& p) {
-    return static_cast<std::uint32_t>(std::lower_bound(b.vertices.begin(), b.vertices.end(), p) -
-                                      b.vertices.begin());
+    return static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), p) -
+                                      vertices.begin());
   };
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const Loops& loops : faces) {
@@ -76,7 +78,7 @@ inline Boundary boundary_of_faces(const std::vector<Loops>& faces) {
   for (const auto& [from, to] : edges) b.edges.push_back({from, to});
   std::sort(b.faces.begin(), b.faces.end(),
             [](const BoundaryFace& f, const BoundaryFace& g) { return f.loops < g.loops; });
-  for (const Point3& p : b.vertices) {
+  for (const Point3& p : vertices) {
     b.approximate.push_back({nearest_double(p.x), nearest_double(p.y), nearest_double(p.z)});
   }
   return b;

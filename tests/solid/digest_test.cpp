@@ -37,7 +37,9 @@ TEST(Digest, DoesNotDependOnOrder) {
   Boundary shuffled = b;
   const auto n = static_cast<std::uint32_t>(b.vertices.size());
   const auto renamed = [&](std::uint32_t v) { return n - 1 - v; };
-  std::reverse(shuffled.vertices.begin(), shuffled.vertices.end());
+  std::vector<Point3> vertices = to_vector(b.vertices);
+  std::reverse(vertices.begin(), vertices.end());
+  shuffled.vertices = ExactPoints(vertices);
   std::reverse(shuffled.edges.begin(), shuffled.edges.end());
   for (BoundaryEdge& e : shuffled.edges) e = {renamed(e.to), renamed(e.from)};
   std::reverse(shuffled.faces.begin(), shuffled.faces.end());

@@ -240,7 +240,7 @@ TEST(CanonicalBoundary, DoesNotDependOnTreeCellsOrThreads) {
   const auto key = [](const Boundary& b) {
     std::vector<std::vector<std::vector<std::uint32_t>>> loops;
     for (const BoundaryFace& face : b.faces) loops.push_back(face.loops);
-    return std::make_tuple(b.vertices, b.edges, exact_planes(b), loops);
+    return std::make_tuple(to_vector(b.vertices), b.edges, exact_planes(b), loops);
   };
   const Boundary reference = evaluate(flat);
   EXPECT_FALSE(reference.empty());

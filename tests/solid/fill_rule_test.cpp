@@ -270,7 +270,7 @@ Polyhedron twisted_torus(std::uint32_t along, std::uint32_t around, double thick
 // Shells of a boundary as a mesh of fans, to ask points of it: its loops need not be convex, but
 // winding numbers of fans add up all the same.
 Polyhedron fans_of(const Boundary& boundary) {
-  Polyhedron mesh{boundary.vertices, {}};
+  Polyhedron mesh{to_vector(boundary.vertices), {}};
   for (const BoundaryFace& face : boundary.faces) {
     for (const auto& loop : face.loops) {
       for (std::size_t k = 2; k < loop.size(); ++k) {

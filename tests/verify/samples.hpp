@@ -69,7 +69,7 @@ inline const Boundary& plate_boundary() {
 inline io::PolygonSoup soup_of(const Boundary& boundary) {
   io::PolygonSoup soup;
   soup.format = io::MeshFormat::Off;
-  soup.vertices = boundary.vertices;
+  soup.vertices = to_vector(boundary.vertices);
   for (const auto& triangle : io::triangulate(boundary)) {
     soup.facets.push_back({triangle[0], triangle[1], triangle[2]});
   }

@@ -49,9 +49,10 @@ std::vector<Check> verify_with(const Solid& solid, const Boundary& boundary) {
 }
 
 std::uint32_t vertex_at(const Boundary& b, const Point3& p) {
-  const auto found = std::find(b.vertices.begin(), b.vertices.end(), p);
-  EXPECT_NE(found, b.vertices.end());
-  return static_cast<std::uint32_t>(found - b.vertices.begin());
+  const std::vector<Point3> vertices = to_vector(b.vertices);
+  const auto found = std::find(vertices.begin(), vertices.end(), p);
+  EXPECT_NE(found, vertices.end());
+  return static_cast<std::uint32_t>(found - vertices.begin());
 }
 
 std::size_t face_on(const Boundary& b, const Plane& plane) {
@@ -82,7 +83,9 @@ Fault in_boundary(std::string name, std::function<void(Boundary&)> mutate,
 
 void move_vertex(Boundary& b, const Point3& from, const Point3& to) {
   const std::uint32_t v = vertex_at(b, from);
-  b.vertices[v] = to;
+  std::vector<Point3> vertices = to_vector(b.vertices);
+  vertices[v] = to;
+  b.vertices = ExactPoints(vertices);
   b.approximate[v] = {nearest_double(to.x), nearest_double(to.y), nearest_double(to.z)};
 }
 
@@ -92,10 +95,12 @@ void split_edge(Boundary& b, const Point3& from, const Point3& to) {
   const std::uint32_t u = vertex_at(b, from);
   const std::uint32_t v = vertex_at(b, to);
   const Point3 middle{(from.x + to.x) / 2, (from.y + to.y) / 2, (from.z + to.z) / 2};
-  const auto place = std::upper_bound(b.vertices.begin(), b.vertices.end(), middle);
-  const auto m = static_cast<std::uint32_t>(place - b.vertices.begin());
+  std::vector<Point3> vertices = to_vector(b.vertices);
+  const auto place = std::upper_bound(vertices.begin(), vertices.end(), middle);
+  const auto m = static_cast<std::uint32_t>(place - vertices.begin());
   const auto shifted = [&](std::uint32_t i) { return i >= m ? i + 1 : i; };
-  b.vertices.insert(place, middle);
+  vertices.insert(place, middle);
+  b.vertices = ExactPoints(vertices);
   b.approximate.insert(
       b.approximate.begin() + m,
       {nearest_double(middle.x), nearest_double(middle.y), nearest_double(middle.z)});
@@ -188,7 +193,12 @@ std::vector<Fault> boundary_faults() {
                   },
                   {"fewer than two directions meet: (2, 0, 0)", "vertex only in ours: (2, 0, 0)"}),
       in_boundary("vertices_exchanged",
-                  [](Boundary& b) { std::swap(b.vertices[3], b.vertices[4]); }, {"not sorted"}),
+                  [](Boundary& b) {
+                    std::vector<Point3> vertices = to_vector(b.vertices);
+                    std::swap(vertices[3], vertices[4]);
+                    b.vertices = ExactPoints(vertices);
+                  },
+                  {"not sorted"}),
       in_boundary("vertex_used_wrongly",
                   [](Boundary& b) {
                     b.faces[face_on(b, right)].loops[0][1] = vertex_at(b, {0, 0, 0});
@@ -243,7 +253,7 @@ std::vector<Check> wall_between_flush_boxes() {
   const Boundary second = evaluate(box({1, 0, 0}, {2, 1, 1}));
   const auto n = static_cast<std::uint32_t>(left.vertices.size());
   const std::uint32_t planes = left.plane_count;
-  left.vertices.insert(left.vertices.end(), second.vertices.begin(), second.vertices.end());
+  left.vertices.append(ExactPoints(second.vertices));
   left.approximate.insert(left.approximate.end(), second.approximate.begin(),
                           second.approximate.end());
   left.plane_count += second.plane_count;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exactcsg/number/common_denominator.hpp"
 
+#include <algorithm>
+
 namespace exactcsg {
 
 // Mostly one of the two divides the other, which is seen faster than a greatest common divisor.
@@ -30,6 +32,30 @@ std::optional<Integer> short_common_denominator(std::span<const Point3> points) 
     for (std::size_t i = 0; i < 3; ++i) make_multiple(common, coordinate(p, i).get_den());
     if (mpz_sizeinbase(common.get_mpz_t(), 2) > common_denominator_bits) return std::nullopt;
   }
+  return common;
+}
+
+std::optional<Integer> short_common_denominator(const ExactPoints& points) {
+  Integer common = 1;
+  Integer denominator;
+  mp_bitcnt_t exponent = 0;  // of the largest power of two
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    for (const RationalView& value : points.view(v)) {
+      if (value.has_binary_denominator()) {
+        exponent = std::max(exponent, value.exponent);
+        continue;
+      }
+      set_denominator(denominator, value);
+      make_multiple(common, denominator);
+    }
+    if (std::max<std::size_t>(mpz_sizeinbase(common.get_mpz_t(), 2), exponent + 1) >
+        common_denominator_bits) {
+      return std::nullopt;
+    }
+  }
+  mpz_mul_2exp(denominator.get_mpz_t(), Integer(1).get_mpz_t(), exponent);
+  make_multiple(common, denominator);
+  if (mpz_sizeinbase(common.get_mpz_t(), 2) > common_denominator_bits) return std::nullopt;
   return common;
 }
 

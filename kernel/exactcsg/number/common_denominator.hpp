@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "exactcsg/number/exact_points.hpp"
 #include "exactcsg/number/point.hpp"
 
 namespace exactcsg {
@@ -23,5 +24,6 @@ inline constexpr std::size_t common_denominator_bits = 512;
 // The least common denominator of all coordinates, unless it has more than
 // common_denominator_bits. COST: O(points) divisions
 std::optional<Integer> short_common_denominator(std::span<const Point3> points);
+std::optional<Integer> short_common_denominator(const ExactPoints& points);
 
 }  // namespace exactcsg

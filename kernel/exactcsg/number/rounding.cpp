@@ -9,28 +9,13 @@
 #include <limits>
 #include <optional>
 
+#include "exactcsg/number/limbs.hpp"
+
 namespace exactcsg {
 
 namespace {
 
 __extension__ using Wide = unsigned __int128;
-
-// The first 64 bits of a magnitude, the first of them set, and the length of the whole in bits.
-struct Head {
-  std::uint64_t bits;
-  long length;
-};
-
-// REQUIRES value != 0
-Head head_of(const Integer& value) {
-  const mp_limb_t* limbs = mpz_limbs_read(value.get_mpz_t());
-  const std::size_t size = mpz_size(value.get_mpz_t());
-  const std::uint64_t top = limbs[size - 1];
-  const int zeros = std::countl_zero(top);
-  std::uint64_t bits = top << zeros;
-  if (zeros != 0 && size > 1) bits |= limbs[size - 2] >> (64 - zeros);
-  return {bits, static_cast<long>(size) * GMP_NUMB_BITS - zeros};
-}
 
 // mantissa * 2^-shift, the mantissa of 63 or 64 bits. Where bits were cut off, the last bit is one:
 // it lies below every position at which a double is rounded (round to odd).
@@ -105,13 +90,6 @@ double rounded(const Leading& leading) {
   return std::ldexp(static_cast<double>(kept), static_cast<int>(dropped - leading.shift));
 }
 
-bool is_power_of_two(const Integer& value) {
-  const mp_limb_t* limbs = mpz_limbs_read(value.get_mpz_t());
-  const std::size_t top = mpz_size(value.get_mpz_t()) - 1;
-  if ((limbs[top] & (limbs[top] - 1U)) != 0) return false;
-  return std::all_of(limbs, limbs + top, [](mp_limb_t limb) { return limb == 0; });
-}
-
 // numerator * 2^-shift of at most 128 bits. REQUIRES numerator != 0
 NearestDouble round_short(const Integer& numerator, const Head& head, long shift) {
   const long cut = head.length - 64;
@@ -129,9 +107,9 @@ NearestDouble round_to_nearest(const Rational& number) {
   const Integer& numerator = number.get_num();
   const Integer& denominator = number.get_den();
   if (numerator == 0) return {0, true};
-  const Head above = head_of(numerator);
-  const Head below = head_of(denominator);
-  const bool is_dyadic = is_power_of_two(denominator);
+  const Head above = head_of(limbs_of(numerator));
+  const Head below = head_of(limbs_of(denominator));
+  const bool is_dyadic = is_power_of_two(limbs_of(denominator));
   const auto with_sign = [&numerator](double magnitude) {
     return sgn(numerator) < 0 ? -magnitude : magnitude;
   };

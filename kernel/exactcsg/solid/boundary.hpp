@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "exactcsg/number/exact_points.hpp"
 #include "exactcsg/number/point.hpp"
 #include "exactcsg/number/tier_statistics.hpp"
 
@@ -51,7 +52,7 @@ struct EvaluationStatistics {
 };
 
 struct Boundary {
-  std::vector<Point3> vertices;
+  ExactPoints vertices;
   std::vector<std::array<double, 3>> approximate;  // vertices rounded to nearest
   std::uint32_t plane_count = 0;                   // distinct oriented planes of faces
   std::vector<BoundaryEdge> edges;

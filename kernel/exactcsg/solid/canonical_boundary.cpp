@@ -43,31 +43,24 @@ struct PieceEdge {
   PieceNumber piece;
 };
 
-struct Position {
-  VertexNumber number = 0;
-  std::array<double, 3> approximate{};  // nearest
-  const Point3* exact = nullptr;
-  std::size_t computed = 0;  // of a meeting point: its place among the computed ones
-};
-
-// Rounding to nearest is monotone: exact numbers are compared only where doubles are equal.
-bool lexicographically_less(const Position& p, const Position& q) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (p.approximate[axis] != q.approximate[axis])
-      return p.approximate[axis] < q.approximate[axis];
-    const Rational& mine = coordinate(*p.exact, axis);
-    const Rational& other = coordinate(*q.exact, axis);
-    if (mine != other) return mine < other;
-  }
-  return false;
-}
-
-void sort_lexicographically(std::vector<Position>& positions, unsigned threads) {
-  const auto x = [](const Position& position) { return position.approximate[0]; };
-  const DoubleBuckets buckets(positions, x, threads);
+// Sorts indices of points, whose nearest doubles are known. Rounding to nearest is monotone: exact
+// numbers are compared only where doubles are equal.
+void sort_lexicographically(std::vector<std::uint32_t>& order,
+                            const std::vector<std::array<double, 3>>& nearest,
+                            const ExactPoints& exact, unsigned threads) {
+  const auto x = [&nearest](std::uint32_t i) { return nearest[i][0]; };
+  const DoubleBuckets buckets(order, x, threads);
   sort_in_buckets(
-      positions, buckets.count(), [&](const Position& position) { return buckets.of(x(position)); },
-      lexicographically_less, threads);
+      order, buckets.count(), [&](std::uint32_t i) { return buckets.of(x(i)); },
+      [&](std::uint32_t i, std::uint32_t j) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          if (nearest[i][axis] != nearest[j][axis]) return nearest[i][axis] < nearest[j][axis];
+          const std::strong_ordering order = compare(exact.view(i)[axis], exact.view(j)[axis]);
+          if (order != 0) return order < 0;
+        }
+        return false;
+      },
+      threads);
 }
 
 // Part of a line that bounds pieces of one oriented plane on one side only.
@@ -1160,57 +1153,76 @@ class Merger {
                          boundary.edges.end());
   }
 
-  // Meeting points, which take long to compute, are put into `computed`.
-  std::vector<Position> positions_of(const std::vector<VertexNumber>& used,
-                                     std::vector<Point3>& computed) const {
-    std::vector<Position> positions(used.size());
-    std::size_t meeting_points = 0;
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      positions[i].number = used[i];
-      if (!vertices_[used[i]].is_point) positions[i].computed = meeting_points++;
+  // The vertices that are used, nearly in lexicographic order: points that are neighbours there lie
+  // side by side in memory, too.
+  std::vector<VertexNumber> used_vertices() const {
+    std::vector<VertexNumber> used;
+    used.reserve(vertices_.size());
+    for (VertexNumber v = 0; v < vertices_.size(); ++v) {
+      if (is_vertex_[v]) used.push_back(v);
     }
-    computed.resize(meeting_points);
-    in_parallel(threads_, positions.size(), [&](std::size_t i) {
-      Position& position = positions[i];
-      const Vertex& v = vertices_[position.number];
-      if (v.is_point) {
-        position.exact = &geometry_.point(v.point);
-      } else {
-        computed[position.computed] = geometry_.exact_point(v);
-        position.exact = &computed[position.computed];
+    const auto x = [this](VertexNumber v) { return vertices_[v].x; };
+    const DoubleBuckets buckets(used, x, threads_);
+    sort_in_buckets(
+        used, buckets.count(), [&](VertexNumber v) { return buckets.of(x(v)); },
+        [this](VertexNumber a, VertexNumber b) {
+          const Vertex& p = vertices_[a];
+          const Vertex& q = vertices_[b];
+          return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+        },
+        threads_);
+    return used;
+  }
+
+  struct Positions {
+    ExactPoints exact;
+    std::vector<std::array<double, 3>> nearest;
+  };
+
+  Positions positions_of(const std::vector<VertexNumber>& used) const {
+    Positions positions;
+    positions.nearest.resize(used.size());
+    const Parts parts(used.size());
+    std::vector<ExactPoints> exact(parts.count());
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      exact[part].reserve(end - begin);
+      for (std::size_t i = begin; i < end; ++i) {
+        positions.nearest[i] = append_position(vertices_[used[i]], exact[part]);
       }
-      const Point3& exact = *position.exact;
-      // An input point's doubles are the nearest ones already.
-      position.approximate = v.is_point && std::isfinite(v.error)
-                                 ? std::array{v.x, v.y, v.z}
-                                 : std::array{nearest_double(exact.x), nearest_double(exact.y),
-                                              nearest_double(exact.z)};
     });
+    positions.exact.reserve(used.size());
+    for (ExactPoints& points : exact) positions.exact.append(std::move(points));
     return positions;
+  }
+
+  // The nearest doubles of a vertex, whose exact point is appended.
+  std::array<double, 3> append_position(const Vertex& v, ExactPoints& points) const {
+    if (!v.is_point) return append(geometry_.exact_point(v), points);
+    if (!std::isfinite(v.error)) return append(geometry_.point(v.point), points);
+    // An input point's doubles are the nearest ones already.
+    points.push_back(geometry_.point(v.point));
+    return {v.x, v.y, v.z};
+  }
+  static std::array<double, 3> append(const Point3& exact, ExactPoints& points) {
+    points.push_back(exact);
+    return {nearest_double(exact.x), nearest_double(exact.y), nearest_double(exact.z)};
   }
 
   // Sets boundary.vertices and boundary.approximate. The new number of each vertex.
   std::vector<VertexNumber> set_vertices(Boundary& boundary) const {
-    std::vector<VertexNumber> used;
-    for (VertexNumber v = 0; v < vertices_.size(); ++v) {
-      if (is_vertex_[v]) used.push_back(v);
-    }
-    std::vector<Point3> computed;
-    std::vector<Position> positions = positions_of(used, computed);
-    sort_lexicographically(positions, threads_);
+    const std::vector<VertexNumber> used = used_vertices();
+    Positions positions = positions_of(used);
+    std::vector<std::uint32_t> order(used.size());
+    std::iota(order.begin(), order.end(), 0U);
+    sort_lexicographically(order, positions.nearest, positions.exact, threads_);
     std::vector<VertexNumber> renumbered(vertices_.size(), none);
-    boundary.vertices.reserve(positions.size());
-    boundary.approximate.reserve(positions.size());
-    for (const Position& position : positions) {
-      renumbered[position.number] = static_cast<VertexNumber>(boundary.vertices.size());
-      // Computed ones belong to nobody else.
-      if (const bool is_computed = !vertices_[position.number].is_point; is_computed) {
-        boundary.vertices.push_back(std::move(computed[position.computed]));
-      } else {
-        boundary.vertices.push_back(*position.exact);
-      }
-      boundary.approximate.push_back(position.approximate);
+    boundary.approximate.reserve(order.size());
+    for (const std::uint32_t i : order) {
+      renumbered[used[i]] = static_cast<VertexNumber>(boundary.approximate.size());
+      boundary.approximate.push_back(positions.nearest[i]);
     }
+    positions.exact.reorder(order);
+    boundary.vertices = std::move(positions.exact);
     return renumbered;
   }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "exactcsg/number/limbs.hpp"
 #include "exactcsg/solid/boundary.hpp"
 #include "exactcsg/solid/numbered_sides.hpp"
 
@@ -89,18 +90,16 @@ class HashedText {
     used_ += text.size();
     return *this;
   }
-  void add_point(const Point3& point) {
+  void add_point(const PointView& point) {
     // A digit more than limbs need, a sign or a separator each.
     std::size_t longest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Rational& number = coordinate(point, i);
-      longest +=
-          digits_of_limb * (mpz_size(number.get_num_mpz_t()) + mpz_size(number.get_den_mpz_t())) +
-          4;
+    for (const RationalView& number : point) {
+      longest += digits_of_limb * (number.numerator.size() + number.denominator.size() + 1) +
+                 number.exponent / 4 + 4;
     }
     reserve(longest);
     for (std::size_t i = 0; i < 3; ++i) {
-      write(coordinate(point, i));
+      write(point[i]);
       write(i == 2 ? '\n' : ' ');
     }
   }
@@ -124,29 +123,34 @@ class HashedText {
 
   // These REQUIRE that there is room.
   void write(char character) { buffer_[used_++] = character; }
-  void write(const Integer& number) {
-    std::size_t limb = mpz_size(number.get_mpz_t());
+  void write(LimbSpan number) {
+    std::size_t limb = number.size();
     if (limb == 0) {
       write('0');
       return;
     }
-    if (number < 0) write('-');
-    const mp_limb_t* const limbs = mpz_limbs_read(number.get_mpz_t());
     --limb;
     // Without its leading zeros.
-    const auto digits = (static_cast<std::size_t>(std::bit_width(limbs[limb])) + 3) / 4;
-    write_limb(end(), limbs[limb] << 4 * (digits_of_limb - digits));
+    const auto digits = (static_cast<std::size_t>(std::bit_width(number[limb])) + 3) / 4;
+    write_limb(end(), number[limb] << 4 * (digits_of_limb - digits));
     used_ += digits;
     while (limb > 0) {
-      write_limb(end(), limbs[--limb]);
+      write_limb(end(), number[--limb]);
       used_ += digits_of_limb;
     }
   }
-  void write(const Rational& number) {
-    write(number.get_num());
-    if (number.get_den() == 1) return;
-    write('/');
-    write(number.get_den());
+  void write(const RationalView& number) {
+    if (number.negative) write('-');
+    write(number.numerator);
+    if (!number.has_binary_denominator()) {
+      write('/');
+      write(number.denominator);
+    } else if (number.exponent > 0) {
+      write('/');
+      write("1248"[number.exponent % 4]);
+      std::fill_n(end(), number.exponent / 4, '0');
+      used_ += number.exponent / 4;
+    }
   }
   static void write_limb(char* text, mp_limb_t value) {
     const std::array<std::uint64_t, 2> digits{
@@ -171,22 +175,15 @@ class HashedText {
   std::size_t used_ = 0;
 };
 
-// Equal coordinates, which are many, are found equal without products.
-bool earlier(const Point3& p, const Point3& q) {
-  if (p.x != q.x) return p.x < q.x;
-  if (p.y != q.y) return p.y < q.y;
-  return p.z < q.z;
-}
-
 // The vertices in lexicographic order.
 std::vector<std::uint32_t> sorted_vertices(const Boundary& boundary) {
   std::vector<std::uint32_t> order(boundary.vertices.size());
   std::iota(order.begin(), order.end(), 0U);
-  const std::vector<Point3>& vertices = boundary.vertices;
-  if (!std::is_sorted(vertices.begin(), vertices.end(), earlier)) {
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-      return earlier(vertices[i], vertices[j]);
-    });
+  const auto earlier = [&](std::uint32_t i, std::uint32_t j) {
+    return compare(boundary.vertices.view(i), boundary.vertices.view(j)) < 0;
+  };
+  if (!std::is_sorted(order.begin(), order.end(), earlier)) {
+    std::stable_sort(order.begin(), order.end(), earlier);
   }
   return order;
 }
@@ -207,7 +204,7 @@ std::string digest(const Boundary& boundary) {
   text << "exactcsg.boundary/3\n";
   section("vertices", boundary.vertices.size());
   const std::vector<std::uint32_t> order = sorted_vertices(boundary);
-  for (const std::uint32_t v : order) text.add_point(boundary.vertices[v]);
+  for (const std::uint32_t v : order) text.add_point(boundary.vertices.view(v));
 
   const NumberTexts numbers(order.size());
   const std::vector<std::uint32_t> rank = inverse_of(order);

@@ -146,7 +146,7 @@ Sums<N> cone_over(HomogeneousVertices& vertices, const BoundaryFace& face, std::
 std::size_t longest_denominator(const Boundary& boundary, const BoundaryFace& face) {
   std::size_t longest = 0;
   for (const std::uint32_t v : face.loops.front()) {
-    longest = std::max(longest, mpz_sizeinbase(boundary.vertices[v].x.get_den_mpz_t(), 2));
+    longest = std::max(longest, denominator_bits(boundary.vertices.view(v)[0]));
   }
   return longest;
 }

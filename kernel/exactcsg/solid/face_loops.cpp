@@ -41,8 +41,7 @@ void start_at_smallest(Loop& loop) {
 
 class LoopLinker {
  public:
-  LoopLinker(const Geometry& geometry, const std::vector<Point3>& vertices,
-             std::span<FaceEdge> edges)
+  LoopLinker(const Geometry& geometry, const ExactPoints& vertices, std::span<FaceEdge> edges)
       : geometry_(geometry), vertices_(vertices), edges_(edges), used_(edges.size(), false) {
     std::sort(edges_.begin(), edges_.end(), [](const FaceEdge& a, const FaceEdge& b) {
       return std::tie(a.from, a.to) < std::tie(b.from, b.to);
@@ -113,7 +112,7 @@ class LoopLinker {
   }
 
   const Geometry& geometry_;
-  const std::vector<Point3>& vertices_;
+  const ExactPoints& vertices_;
   std::span<FaceEdge> edges_;
   std::vector<bool> used_;
 };

@@ -9,8 +9,8 @@ Plane exact_plane(const Boundary& boundary, const BoundaryFace& face) {
   std::size_t place = 0;
   for (const std::vector<std::uint32_t>& candidate : face.loops) {
     for (std::size_t i = 0; i < candidate.size(); ++i) {
-      if (loop != nullptr &&
-          !(boundary.vertices[candidate[i]] < boundary.vertices[(*loop)[place]])) {
+      if (loop != nullptr && compare(boundary.vertices.view(candidate[i]),
+                                     boundary.vertices.view((*loop)[place])) >= 0) {
         continue;
       }
       loop = &candidate;

@@ -107,10 +107,9 @@ bool vertices_ascend(const Boundary& boundary) {
       const double near = boundary.approximate[i][axis];
       const double next_near = boundary.approximate[i + 1][axis];
       if (near != next_near) return near > next_near;
-      const Rational& here = coordinate(boundary.vertices[i], axis);
-      const Rational& next = coordinate(boundary.vertices[i + 1], axis);
-      // Equal coordinates, which are many, are found equal without products.
-      if (here != next) return here > next;
+      const std::strong_ordering order =
+          compare(boundary.vertices.view(i)[axis], boundary.vertices.view(i + 1)[axis]);
+      if (order != 0) return order > 0;
     }
     return false;
   };
@@ -131,21 +130,25 @@ std::optional<std::vector<std::uint32_t>> image_of_vertices(const Boundary& boun
     const Point3 target = mirror(vertex);
     const std::array<double, 3> near{nearest_double(target.x), nearest_double(target.y),
                                      nearest_double(target.z)};
+    const PointView target_view = view_of(target);
     // Rounding to nearest is monotone: only equal doubles leave the order open.
-    const auto precedes = [&](const Point3& candidate) {
-      const auto& mine =
-          boundary.approximate[static_cast<std::size_t>(&candidate - boundary.vertices.data())];
+    const auto precedes = [&](const std::array<double, 3>& candidate) {
+      const auto v = static_cast<std::size_t>(&candidate - boundary.approximate.data());
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (mine[axis] != near[axis]) return mine[axis] < near[axis];
-        const int order = cmp(coordinate(candidate, axis), coordinate(target, axis));
+        if (candidate[axis] != near[axis]) return candidate[axis] < near[axis];
+        const std::strong_ordering order =
+            compare(boundary.vertices.view(v)[axis], target_view[axis]);
         if (order != 0) return order < 0;
       }
       return false;
     };
-    const auto at =
-        std::partition_point(boundary.vertices.begin(), boundary.vertices.end(), precedes);
-    if (at == boundary.vertices.end() || !(*at == target)) return std::nullopt;
-    image.push_back(static_cast<std::uint32_t>(at - boundary.vertices.begin()));
+    const auto at = static_cast<std::size_t>(
+        std::partition_point(boundary.approximate.begin(), boundary.approximate.end(), precedes) -
+        boundary.approximate.begin());
+    if (at == boundary.vertices.size() || compare(boundary.vertices.view(at), target_view) != 0) {
+      return std::nullopt;
+    }
+    image.push_back(static_cast<std::uint32_t>(at));
   }
   return image;
 }

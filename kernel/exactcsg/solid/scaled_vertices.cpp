@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "exactcsg/number/common_denominator.hpp"
+#include "exactcsg/number/limbs.hpp"
 
 namespace exactcsg {
 
@@ -82,24 +83,14 @@ class Limbs {
   std::vector<mp_limb_t> value_;
 };
 
-struct LimbSpan {
-  const mp_limb_t* limbs;
-  std::size_t count;
-};
-
-LimbSpan limbs_of(const Integer& value) {
-  return {mpz_limbs_read(value.get_mpz_t()), mpz_size(value.get_mpz_t())};
-}
-
 // Numbers times a power of two, cut to integers.
 class GridScaling {
  public:
   explicit GridScaling(long shift) : shift_(shift) {}
 
-  void operator()(Limbs& result, const Rational& value) {
-    const LimbSpan numerator = limbs_of(value.get_num());
-    const bool whole = set_magnitude(result, numerator, value.get_den());
-    if (sgn(value) >= 0) return;
+  void operator()(Limbs& result, const RationalView& value) {
+    const bool whole = set_magnitude(result, value);
+    if (!value.negative) return;
     // -(q + rest) is between -q - 1 and -q.
     if (whole) {
       result.negate();
@@ -110,58 +101,55 @@ class GridScaling {
 
  private:
   // Whether nothing was cut off.
-  bool set_magnitude(Limbs& result, LimbSpan numerator, const Integer& denominator) {
-    if (numerator.count == 0) {
+  bool set_magnitude(Limbs& result, const RationalView& value) {
+    if (value.is_zero()) {
       result.set_zero();
       return true;
     }
-    const LimbSpan divisor = limbs_of(denominator);
-    const mp_limb_t top = divisor.limbs[divisor.count - 1];
-    const bool one_bit = (top & (top - 1)) == 0 &&
-                         mpz_scan1(denominator.get_mpz_t(), 0) / GMP_NUMB_BITS + 1 == divisor.count;
-    if (one_bit) {
-      const auto length = static_cast<long>(mpz_sizeinbase(denominator.get_mpz_t(), 2)) - 1;
-      return set_shifted(result, numerator, shift_ - length);
+    if (value.has_binary_denominator()) {
+      return set_shifted(result, value.numerator, shift_ - static_cast<long>(value.exponent));
     }
-    if (shift_ >= 0) return set_quotient(result, shifted(numerator, shift_), divisor);
-    return set_quotient(result, numerator, shifted(divisor, -shift_));
+    if (shift_ >= 0) {
+      return set_quotient(result, shifted(value.numerator, shift_), value.denominator);
+    }
+    return set_quotient(result, value.numerator, shifted(value.denominator, -shift_));
   }
 
   bool set_shifted(Limbs& result, LimbSpan value, long shift) {
     if (shift >= 0) {
       const LimbSpan longer = shifted(value, shift);
-      result.set(longer.limbs, longer.count);
+      result.set(longer.data(), longer.size());
       return true;
     }
     const auto whole = static_cast<std::size_t>(-shift) / GMP_NUMB_BITS;
     const auto rest = static_cast<unsigned>(-shift % GMP_NUMB_BITS);
-    if (whole >= value.count) {
+    if (whole >= value.size()) {
       result.set_zero();
       return false;
     }
-    const std::size_t count = value.count - whole;
+    const std::size_t count = value.size() - whole;
     mp_limb_t cut = 0;
     if (rest == 0) {
-      result.set(value.limbs + whole, count);
+      result.set(value.data() + whole, count);
     } else {
       shifted_.resize(count);
-      cut = mpn_rshift(shifted_.data(), value.limbs + whole, static_cast<mp_size_t>(count), rest);
+      cut = mpn_rshift(shifted_.data(), value.data() + whole, static_cast<mp_size_t>(count), rest);
       result.set(shifted_.data(), count);
     }
     return cut == 0 &&
-           std::all_of(value.limbs, value.limbs + whole, [](mp_limb_t l) { return l == 0; });
+           std::all_of(value.data(), value.data() + whole, [](mp_limb_t l) { return l == 0; });
   }
 
   bool set_quotient(Limbs& result, LimbSpan numerator, LimbSpan divisor) {
-    if (numerator.count < divisor.count) {
+    if (numerator.size() < divisor.size()) {
       result.set_zero();
       return false;
     }
-    quotient_.resize(numerator.count - divisor.count + 1);
-    remainder_.resize(divisor.count);
-    mpn_tdiv_qr(quotient_.data(), remainder_.data(), 0, numerator.limbs,
-                static_cast<mp_size_t>(numerator.count), divisor.limbs,
-                static_cast<mp_size_t>(divisor.count));
+    quotient_.resize(numerator.size() - divisor.size() + 1);
+    remainder_.resize(divisor.size());
+    mpn_tdiv_qr(quotient_.data(), remainder_.data(), 0, numerator.data(),
+                static_cast<mp_size_t>(numerator.size()), divisor.data(),
+                static_cast<mp_size_t>(divisor.size()));
     result.set(quotient_.data(), quotient_.size());
     return mpn_zero_p(remainder_.data(), static_cast<mp_size_t>(remainder_.size())) != 0;
   }
@@ -170,16 +158,16 @@ class GridScaling {
   LimbSpan shifted(LimbSpan value, long shift) {
     const auto whole = static_cast<std::size_t>(shift) / GMP_NUMB_BITS;
     const auto rest = static_cast<unsigned>(shift % GMP_NUMB_BITS);
-    shifted_.resize(value.count + whole + 1);
+    shifted_.resize(value.size() + whole + 1);
     std::fill_n(shifted_.data(), whole, mp_limb_t{0});
     mp_limb_t* const to = shifted_.data() + whole;
-    to[value.count] = 0;
+    to[value.size()] = 0;
     if (rest == 0) {
-      std::copy_n(value.limbs, value.count, to);
+      std::copy_n(value.data(), value.size(), to);
     } else {
-      to[value.count] = mpn_lshift(to, value.limbs, static_cast<mp_size_t>(value.count), rest);
+      to[value.size()] = mpn_lshift(to, value.data(), static_cast<mp_size_t>(value.size()), rest);
     }
-    return {shifted_.data(), shifted_.size() - (to[value.count] == 0 ? 1 : 0)};
+    return {shifted_.data(), shifted_.size() - (to[value.size()] == 0 ? 1 : 0)};
   }
 
   long shift_;
@@ -193,27 +181,41 @@ class ExactScaling {
  public:
   explicit ExactScaling(const Integer& common) : common_(common) {}
 
-  void operator()(Limbs& result, const Rational& value) {
-    if (value.get_den() == common_) {
-      result.set(value.get_num());
+  void operator()(Limbs& result, const RationalView& value) {
+    if (value.is_zero()) {
+      result.set_zero();
       return;
     }
-    if (value.get_den() != denominator_) {
-      denominator_ = value.get_den();
-      mpz_divexact(factor_.get_mpz_t(), common_.get_mpz_t(), denominator_.get_mpz_t());
+    if (!equal_denominators(value, last_)) {
+      last_ = value;
+      set_factor(value);
     }
-    mpz_mul(product_.get_mpz_t(), value.get_num_mpz_t(), factor_.get_mpz_t());
+    mpz_t numerator;
+    mpz_mul(product_.get_mpz_t(), factor_.get_mpz_t(),
+            mpz_roinit_n(numerator, value.numerator.data(),
+                         static_cast<mp_size_t>(value.numerator.size())));
     result.set(product_);
+    if (value.negative) result.negate();
   }
 
  private:
+  void set_factor(const RationalView& value) {
+    if (value.has_binary_denominator()) {
+      mpz_tdiv_q_2exp(factor_.get_mpz_t(), common_.get_mpz_t(), value.exponent);
+      return;
+    }
+    set_denominator(denominator_, value);
+    mpz_divexact(factor_.get_mpz_t(), common_.get_mpz_t(), denominator_.get_mpz_t());
+  }
+
   const Integer& common_;
+  RationalView last_;
+  Integer factor_ = common_;  // that common_ is of the last one's denominator
   Integer denominator_;
-  Integer factor_;
   Integer product_;
 };
 
-// `scaled(rational)` is an Integer, monotone; `set_scaled(limbs, rational)` the same.
+// `scaled(rational)` is an Integer, monotone; `set_scaled(limbs, view)` the same.
 template <class Scaled, class SetScaled>
 void fill(ScaledVertices& s, const Boundary& boundary, const CoordinateRanges& ranges,
           const Scaled& scaled, SetScaled set_scaled) {
@@ -230,9 +232,10 @@ void fill(ScaledVertices& s, const Boundary& boundary, const CoordinateRanges& r
   for (std::size_t i = 0; i < 3; ++i) origin[i].set(lowest[i]);
   Limbs value(s.width);
   mp_limb_t* to = s.limbs.data();
-  for (const Point3& vertex : boundary.vertices) {
+  for (std::size_t v = 0; v < boundary.vertices.size(); ++v) {
+    const PointView vertex = boundary.vertices.view(v);
     for (std::size_t i = 0; i < 3; ++i, to += s.width) {
-      set_scaled(value, coordinate(vertex, i));
+      set_scaled(value, vertex[i]);
       value.write_difference(to, origin[i]);
     }
   }
@@ -252,17 +255,17 @@ CoordinateRange coordinate_range(const Boundary& boundary, std::size_t axis) {
       greatest = std::max(greatest, vertex[axis]);
     }
   }
-  const Rational* lowest = nullptr;
-  const Rational* highest = nullptr;
+  std::optional<RationalView> lowest;
+  std::optional<RationalView> highest;
   for (std::size_t v = 0; v < boundary.vertices.size(); ++v) {
-    const Rational& exact = coordinate(boundary.vertices[v], axis);
-    const auto may_be = [&](double extreme) {
-      return !has_doubles || boundary.approximate[v][axis] == extreme;
-    };
-    if (may_be(least) && (lowest == nullptr || exact < *lowest)) lowest = &exact;
-    if (may_be(greatest) && (highest == nullptr || *highest < exact)) highest = &exact;
+    const bool may_be_lowest = !has_doubles || boundary.approximate[v][axis] == least;
+    const bool may_be_highest = !has_doubles || boundary.approximate[v][axis] == greatest;
+    if (!may_be_lowest && !may_be_highest) continue;
+    const RationalView exact = boundary.vertices.view(v)[axis];
+    if (may_be_lowest && (!lowest || compare(exact, *lowest) < 0)) lowest = exact;
+    if (may_be_highest && (!highest || compare(*highest, exact) < 0)) highest = exact;
   }
-  return {*lowest, *highest};
+  return {rational_of(*lowest), rational_of(*highest)};
 }
 
 bool has_short_common_denominator(const Boundary& boundary) {

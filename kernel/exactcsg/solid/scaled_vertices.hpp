@@ -35,8 +35,8 @@ void set_coordinates(std::array<Integer, 3>& result, const ScaledVertices& verti
 ScaledVertices scale_vertices(const Boundary& boundary, int bits);
 
 struct CoordinateRange {
-  const Rational& lowest;
-  const Rational& highest;
+  Rational lowest;
+  Rational highest;
 };
 
 // The least and the greatest of the vertices' coordinates along an axis (0 ... 2).

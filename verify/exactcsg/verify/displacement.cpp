@@ -134,7 +134,7 @@ Contribution evaluated_contribution(const Primitive& a, const Primitive& b) {
   const Boundary boundary = evaluate(both);
   std::vector<OrientedFace> faces;
   for (const BoundaryFace& face : boundary.faces) faces.push_back({&face.loops, 1});
-  const VolumeSum volume = sum_volume(boundary.vertices, faces);
+  const VolumeSum volume = sum_volume(to_vector(boundary.vertices), faces);
   const Rational value = volume.exact ? *volume.exact : *parse_rational(volume.decimal);
   return {nearest_double(value), 0};
 }

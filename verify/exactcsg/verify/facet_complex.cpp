@@ -170,7 +170,7 @@ VolumeSum volume_sum(const FacetComplex& complex) {
 VolumeSum volume_sum(const Boundary& boundary) {
   std::vector<OrientedFace> faces;
   for (const BoundaryFace& face : boundary.faces) faces.push_back({&face.loops, 1});
-  return sum_volume(boundary.vertices, faces);
+  return sum_volume(to_vector(boundary.vertices), faces);
 }
 
 CanonicalSets canonical_sets(const FacetComplex& complex) {
@@ -196,10 +196,10 @@ CanonicalSets canonical_sets(const FacetComplex& complex) {
 
 CanonicalSets canonical_sets(const Boundary& boundary) {
   CanonicalSets sets;
-  sets.vertices = boundary.vertices;
+  sets.vertices = to_vector(boundary.vertices);
   for (const BoundaryEdge& edge : boundary.edges) {
-    const Point3& p = boundary.vertices.at(edge.from);
-    const Point3& q = boundary.vertices.at(edge.to);
+    const Point3& p = boundary.vertices[edge.from];
+    const Point3& q = boundary.vertices[edge.to];
     sets.edges.push_back(p < q ? ExactEdge{p, q} : ExactEdge{q, p});
   }
   for (const BoundaryFace& face : boundary.faces) {

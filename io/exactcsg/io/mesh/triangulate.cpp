@@ -111,7 +111,7 @@ class FaceTriangulator {
             (std::abs(x1) + std::abs(y1) + std::abs(x2) + std::abs(y2) + difference_error) +
         10 * unit * (std::abs(x1 * y2) + std::abs(y1 * x2)) + 1e-290;
     if (std::abs(determinant) > bound) return determinant > 0;
-    const auto exact = [&](std::uint32_t v, std::size_t axis) -> const Rational& {
+    const auto exact = [&](std::uint32_t v, std::size_t axis) {
       return coordinate(boundary_.vertices[v], axis);
     };
     const Rational left =

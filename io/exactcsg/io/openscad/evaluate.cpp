@@ -156,7 +156,7 @@ class Extents {
 
 Extents<3> extents_of(const Solid& solid) {
   Extents<3> extents;
-  const auto add = [&](const std::vector<Point3>& points) {
+  const auto add = [&](const auto& points) {
     for (const Point3& p : points) extents.add({p.x, p.y, p.z});
   };
   if (only_unites(solid) && is_bounded(solid)) {

@@ -169,7 +169,8 @@ void add_outline_points(const PlanarTree& tree, std::vector<Point2>& points) {
 Solid hull(std::span<const Point3> points) { return hull_of({points.begin(), points.end()}); }
 
 Solid hull(const Solid& solid) {
-  if (!only_unites(solid) || !is_bounded(solid)) return hull_of(evaluate(solid).vertices);
+  if (!only_unites(solid) || !is_bounded(solid))
+    return hull_of(to_vector(evaluate(solid).vertices));
   std::vector<Point3> points;
   csg::for_each_primitive(solid, [&](const Primitive& primitive) {
     const std::vector<Point3>& vertices = polyhedron_of(primitive)->vertices;
