@@ -124,6 +124,7 @@ Geometry Geometry::Builder::build() && {
   }
   data->planes = PlaneTable(state.planes, firsts);
   data->points = std::move(state.points);
+  data->points.close();
   data->owners = std::move(state.owners);
   data->homogeneous_points = LazyTable<Homogeneous<Integer>>(data->points.size());
   fill_incidences(state.incidences, *data);

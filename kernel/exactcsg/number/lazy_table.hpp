@@ -27,6 +27,11 @@ class LazyTable {
     for (std::size_t i = 0; i < size_; ++i) delete entries_[i].load(std::memory_order_acquire);
   }
 
+  // Before any thread asks for entry i, which is known already.
+  void set(std::size_t i, std::unique_ptr<const T> value) {
+    delete entries_[i].exchange(value.release(), std::memory_order_acq_rel);
+  }
+
   // `compute()` returns the value. The reference lives as long as the table.
   template <class Compute>
   const T& get(std::size_t i, const Compute& compute) const {

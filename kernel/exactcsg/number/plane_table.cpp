@@ -87,12 +87,14 @@ void AddedPlanes::sharpen(const PointTable& points, std::uint32_t i) {
 }
 
 PlaneTable::PlaneTable(AddedPlanes& added, const std::vector<std::uint32_t>& members)
-    : computed_(members.size()) {
+    : exact_(members.size()) {
   approximate_.reserve(members.size());
-  sources_.reserve(members.size());
+  points_.reserve(members.size());
   for (const std::uint32_t i : members) {
+    PlaneSource source = added.take_source(i);
+    if (source.exact) exact_.set(points_.size(), std::move(source.exact));
     approximate_.push_back(added.approximate(i));
-    sources_.push_back(added.take_source(i));
+    points_.push_back(source.points);
   }
 }
 

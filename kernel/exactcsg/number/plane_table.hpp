@@ -57,21 +57,16 @@ class PlaneTable {
   // `homogeneous(PointId)`: the coordinates of a point.
   template <class HomogeneousOfPoint>
   const Plane& exact(const HomogeneousOfPoint& homogeneous, std::uint32_t i) const {
-    const PlaneSource& source = sources_[i];
-    if (source.exact) return *source.exact;
-    return computed_.get(i, [&] { return compute(homogeneous, source); });
+    return exact_.get(i, [&] {
+      const auto& [p, q, r] = points_[i];
+      return plane_through(homogeneous(p), homogeneous(q), homogeneous(r));
+    });
   }
 
  private:
-  template <class HomogeneousOfPoint>
-  static Plane compute(const HomogeneousOfPoint& homogeneous, const PlaneSource& source) {
-    const auto& [p, q, r] = source.points;
-    return plane_through(homogeneous(p), homogeneous(q), homogeneous(r));
-  }
-
   std::vector<ApproximatePlane> approximate_;
-  std::vector<PlaneSource> sources_;
-  LazyTable<Plane> computed_;
+  std::vector<std::array<PointId, 3>> points_;  // that a plane is made from; any, if it was given
+  LazyTable<Plane> exact_;
 };
 
 }  // namespace exactcsg

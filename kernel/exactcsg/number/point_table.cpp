@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "exactcsg/number/rounding.hpp"
+#include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {
 
@@ -81,6 +82,11 @@ std::pair<PointId, bool> PointTable::find_or_add(const Point3& point, const Hash
   hashes_.push_back(hash);
   approximate_.push_back(hashed.near);
   return {PointId{id}, true};
+}
+
+void PointTable::close() {
+  give_up(hashes_);
+  give_up(slots_);
 }
 
 void PointTable::enlarge_slots() {

@@ -23,6 +23,9 @@ class PointTable {
   // The same without a copy. REQUIRES the point lasts as long as the table.
   PointId intern_lasting(const Point3& point, const HashedPoint& hashed);
 
+  // Gives up what new points are sought with. REQUIRES that none is added any more.
+  void close();
+
   std::size_t size() const { return points_.size(); }
   const Point3& exact(PointId id) const { return *points_[static_cast<std::size_t>(id)]; }
   const ApproximatePoint& approximate(PointId id) const {

@@ -21,6 +21,7 @@
 #include "exactcsg/solid/per_thread.hpp"
 #include "exactcsg/solid/settled_facets.hpp"
 #include "exactcsg/solid/vertex_interning.hpp"
+#include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {
 
@@ -150,15 +151,15 @@ void set_mark(unsigned char& mark) { std::atomic_ref(mark).store(1, std::memory_
 
 class Merger {
  public:
-  Merger(const Scene& scene, const std::vector<PieceBuffer>& buffers, unsigned threads,
-         Progress* progress)
+  // Buffers are given up as soon as they are read.
+  Merger(const Scene& scene, std::vector<PieceBuffer> buffers, unsigned threads, Progress* progress)
       : scene_(scene),
         geometry_(scene.geometry),
         threads_(threads),
         progress_(progress),
         settled_(settled_facets(scene, buffers)),
         faces_(PieceRow(buffers).size()) {
-    number_vertices(PieceRow(buffers));
+    number_vertices(std::move(buffers));
   }
 
   Boundary merge() {
@@ -207,9 +208,11 @@ class Merger {
   };
 
   // Sets vertices_, edges_, settled_edges_, settled_faces_, settled_sides_ and primitive_of_piece_.
-  void number_vertices(const PieceRow& pieces) {
+  void number_vertices(std::vector<PieceBuffer> buffers) {
+    const PieceRow pieces(buffers);
     InternedVertices interned = intern(geometry_, vertices_of(pieces), statistics_, threads_);
     vertices_ = std::move(interned.distinct);
+    for (PieceBuffer& buffer : buffers) give_up(buffer.meeting_points);
     const Parts parts(pieces.size());
     const std::vector<PieceCounts> firsts = first_entries(pieces, parts);
     edges_.resize(firsts.back().edges);
@@ -432,7 +435,7 @@ class Merger {
         left[i] = edges_[order[begin + (i - first_left[part])].edge];
       }
     });
-    edges_ = {};
+    give_up(edges_);
     return left;
   }
 
@@ -1082,16 +1085,16 @@ class Merger {
         });
       }
     });
-    content_ = {};
-    segments_ = {};
-    stations_ = {};
-    lines_ = {};
-    primitive_of_piece_ = {};
+    give_up(content_);
+    give_up(segments_);
+    give_up(stations_);
+    give_up(lines_);
+    give_up(primitive_of_piece_);
     in_parallel(threads_, settled, [&](std::size_t part, std::size_t begin, std::size_t end) {
       add_single_faces(begin, end, edges[lines.count() + part], singles[part]);
     });
-    settled_faces_ = {};
-    settled_sides_ = {};
+    give_up(settled_faces_);
+    give_up(settled_sides_);
     FaceParts result;
     result.count_on_lines = first_places(edges)[lines.count()];
     result.edges = joined(threads_, std::move(edges));
@@ -1103,7 +1106,7 @@ class Merger {
     FaceParts faces = face_parts();
     Boundary boundary;
     const std::vector<VertexNumber> renumbered = set_vertices(boundary);
-    vertices_ = {};
+    give_up(vertices_);
     check();
     set_edges(faces, renumbered, boundary);
     in_parallel_parts(threads_, faces.edges.size(), [&](std::size_t i) {
@@ -1144,7 +1147,7 @@ class Merger {
             [&](VertexNumber from, VertexNumber to) { result.push_back(edge_between(from, to)); });
       }
     });
-    settled_edges_ = {};
+    give_up(settled_edges_);
     boundary.edges = joined(threads_, std::move(edges));
     sort_in_buckets(
         boundary.edges, boundary.vertices.size(),
@@ -1258,18 +1261,15 @@ class Merger {
 
 Boundary merge_pieces(Scene&& scene, std::vector<PieceBuffer> buffers, unsigned threads,
                       Progress* progress) {
-  Merger merger(scene, buffers, threads, progress);
-  buffers = {};
-  scene.facets = {};
-  scene.corners = {};
+  Merger merger(scene, std::move(buffers), threads, progress);
+  give_up(scene.facets);
+  give_up(scene.corners);
   return merger.merge();
 }
 
 Boundary merge_pieces(const Scene& scene, std::vector<PieceBuffer> buffers, unsigned threads,
                       Progress* progress) {
-  Merger merger(scene, buffers, threads, progress);
-  buffers = {};  // their memory is wanted now
-  return merger.merge();
+  return Merger(scene, std::move(buffers), threads, progress).merge();
 }
 
 }  // namespace exactcsg

@@ -13,6 +13,7 @@
 #include "exactcsg/csg/walk.hpp"
 #include "exactcsg/skeleton/divacon.hpp"
 #include "exactcsg/solid/mesh_membership.hpp"
+#include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {
 
@@ -146,10 +147,10 @@ class PointInCell {
 };
 
 void drop_facets(CellTask& task) {
-  task.primitives = {};
-  task.whole = {};
-  task.clipped = {};
-  task.corners = {};
+  give_up(task.primitives);
+  give_up(task.whole);
+  give_up(task.clipped);
+  give_up(task.corners);
   task.facet_count = 0;
 }
 

@@ -14,6 +14,7 @@
 #include <tbb/task_group.h>
 
 #include "exactcsg/skeleton/hand_over.hpp"
+#include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {
 
@@ -120,7 +121,7 @@ std::vector<Item> joined(unsigned threads, std::vector<std::vector<Item>> lists)
   in_parallel(threads, lists.size(), [&](std::size_t i) {
     std::move(lists[i].begin(), lists[i].end(),
               result.begin() + static_cast<std::ptrdiff_t>(places[i]));
-    lists[i] = {};
+    give_up(lists[i]);
   });
   return result;
 }
