@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "exactcsg/solid/piece_buffer.hpp"
@@ -96,6 +98,34 @@ TEST_F(PieceCollectorTest, BuffersAreAppended) {
   const auto second = all.corners_of(all.pieces[1]);
   EXPECT_EQ(all.meeting_points[second[0].vertex].x, 1);
   EXPECT_EQ(all.meeting_points[second[1].vertex].x, 2);
+}
+
+// LAW pieces.2
+TEST_F(PieceCollectorTest, CompactedBuffersHoldWhatPiecesNeed) {
+  for (int i = 0; i < 5; ++i) add(i, i + 1);
+  PieceBuffer buffer = collector_.take();
+  buffer.pieces[1].share = facet_share::whole;
+  buffer.pieces.erase(buffer.pieces.begin() + 3);
+  // Of five rectangles in a row, the first, the third and the last are left with their corners.
+  const PieceBuffer result = compacted(buffer);
+  ASSERT_EQ(result.pieces.size(), 4U);
+  EXPECT_EQ(result.pieces[1].share, facet_share::whole);
+  EXPECT_EQ(result.pieces[1].corner_count, 0U);
+  EXPECT_EQ(result.corners.size(), 3U * 4);
+  EXPECT_EQ(result.meeting_points.size(), 3U * 4);
+  EXPECT_EQ(result.corners.capacity(), result.corners.size());
+  for (const std::size_t p : {0U, 2U, 3U}) {
+    const auto before = buffer.corners_of(buffer.pieces[p]);
+    const auto after = result.corners_of(result.pieces[p]);
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      EXPECT_EQ(after[i].side_plane, before[i].side_plane);
+      const Vertex& found = result.meeting_points[after[i].vertex];
+      const Vertex& expected = buffer.meeting_points[before[i].vertex];
+      EXPECT_TRUE(std::equal(std::begin(found.planes), std::end(found.planes), expected.planes));
+    }
+  }
+  EXPECT_TRUE(compacted({}).pieces.empty());
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ Boundary evaluate(const Solid& solid, const EvaluateOptions& options) {
   if (options.progress != nullptr) options.progress->begin("decompose", scene.facets.size());
   CellResult result = run(scene, options);
   require_bounded(solid, scene, result.buffers);
-  restore_whole_facets(scene, result.buffers);
+  restore_whole_facets(scene, result.buffers, options.threads);
   if (options.progress != nullptr) options.progress->begin("merge", 0);
   scene.bounds = {};
   const std::size_t primitives = scene.primitives.size();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 namespace exactcsg {
 
@@ -36,6 +37,41 @@ void append(const PieceBuffer& added, PieceBuffer& result) {
   }
   result.meeting_points.insert(result.meeting_points.end(), added.meeting_points.begin(),
                                added.meeting_points.end());
+}
+
+PieceBuffer compacted(const PieceBuffer& buffer) {
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  PieceBuffer result;
+  std::vector<std::uint32_t> new_number(buffer.meeting_points.size(), none);
+  std::size_t corners = 0;
+  std::uint32_t meeting_points = 0;
+  for (const BoundaryPiece& piece : buffer.pieces) {
+    if (piece.share == facet_share::whole) continue;
+    corners += piece.corner_count;
+    for (const PieceCorner& corner : buffer.corners_of(piece)) {
+      if (corner.is_point || new_number[corner.vertex] != none) continue;
+      new_number[corner.vertex] = meeting_points++;
+    }
+  }
+  result.pieces = buffer.pieces;
+  result.corners.reserve(corners);
+  result.meeting_points.resize(meeting_points);
+  for (BoundaryPiece& piece : result.pieces) {
+    const auto first_corner = static_cast<std::uint32_t>(result.corners.size());
+    if (piece.share == facet_share::whole) {
+      piece.first_corner = piece.corner_count = 0;
+      continue;
+    }
+    for (PieceCorner corner : buffer.corners_of(piece)) {
+      if (!corner.is_point) corner.vertex = new_number[corner.vertex];
+      result.corners.push_back(corner);
+    }
+    piece.first_corner = first_corner;
+  }
+  for (std::size_t i = 0; i < new_number.size(); ++i) {
+    if (new_number[i] != none) result.meeting_points[new_number[i]] = buffer.meeting_points[i];
+  }
+  return result;
 }
 
 void PieceCollector::add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,

@@ -55,6 +55,11 @@ struct PieceBuffer {
 // What both hold, without looking for meeting points that both have.
 void append(const PieceBuffer& added, PieceBuffer& result);
 
+// LAW pieces.2  the same pieces, with the same corners, in memory of the right size: without
+// corners that belong to no piece, or to one that has become a whole facet, and without meeting
+// points that no corner has. COST: O(corners)
+PieceBuffer compacted(const PieceBuffer& buffer);
+
 // Builds one buffer after the other in the same memory.
 class PieceCollector {
  public:

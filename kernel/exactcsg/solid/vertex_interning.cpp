@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "exactcsg/solid/bucket_sort.hpp"
 
@@ -176,7 +178,8 @@ InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices
     return items.is_point(item) ? result.number_of_point[items.id(item)]
                                 : result.number_of_meeting_point[item];
   };
-  const Clusters clusters(keys_of(items, threads), threads);
+  std::optional<const Clusters> found(std::in_place, keys_of(items, threads), threads);
+  const Clusters& clusters = *found;
   const Parts& parts = clusters.parts();
   // By part, and numbered from 0 in each.
   std::vector<std::vector<Vertex>> distinct(parts.count());
@@ -204,6 +207,7 @@ InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices
     if (first == 0) return;
     for (const KeyInterval& key : clusters.part(part)) number_of(key.item) += first;
   });
+  found.reset();  // its memory is wanted now
   result.distinct = joined(threads, std::move(distinct));
   return result;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "exactcsg/solid/in_parallel.hpp"
+
 namespace exactcsg {
 
 namespace {
@@ -21,7 +23,7 @@ bool is_whole(std::vector<Shares>& shares, const BoundaryPiece& piece) {
 
 }  // namespace
 
-void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers) {
+void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers, unsigned threads) {
   std::vector<Shares> shares(scene.facets.size());
   for (const PieceBuffer& buffer : buffers) {
     for (const BoundaryPiece& piece : buffer.pieces) share_of(shares, piece) += piece.share;
@@ -38,6 +40,8 @@ void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers)
     buffer.pieces.erase(std::remove_if(buffer.pieces.begin(), buffer.pieces.end(), restore),
                         buffer.pieces.end());
   }
+  in_parallel_parts(threads, buffers.size(),
+                    [&](std::size_t b) { buffers[b] = compacted(buffers[b]); });
 }
 
 }  // namespace exactcsg
