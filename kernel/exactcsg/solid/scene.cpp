@@ -15,6 +15,7 @@
 #include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/polygon.hpp"
 #include "exactcsg/solid/polyhedron_signs.hpp"
+#include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {
 
@@ -230,14 +231,14 @@ class SceneBuilder {
       const OrientedPlaneRef side_plane = scene.geometry.plane(corners_[i].side_plane);
       scene.corners[i] = {corners_[i].point, side_plane.plane.table_index()};
     });
-    corners_ = {};
+    give_up(corners_);
     scene.facets.resize(facets_.size());
     in_parallel_parts(threads, facets_.size(), [&](std::size_t f) {
       scene.facets[f] = {facets_[f].primitive, facets_[f].corner_count == 0,
                          scene.geometry.plane(facets_[f].plane), facets_[f].first_corner,
                          facets_[f].corner_count};
     });
-    facets_ = {};
+    give_up(facets_);
     for (SceneFacet& facet : scene.facets) {
       if (facet.is_half_space) add_half_space_polygon(scene, facet);
     }
