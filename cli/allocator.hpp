@@ -3,8 +3,8 @@
 
 namespace exactcsg::cli {
 
-// Memory asked for from now on comes in huge pages where the system has them. Clearing a few of
-// them takes longer than a small model, so that the command starts without.
+// Memory asked for from now on comes in huge pages where the system gives them unasked. Clearing a
+// few of them takes longer than a small model, so that the command starts without.
 void use_huge_pages();
 
 }  // namespace exactcsg::cli
