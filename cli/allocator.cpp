@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How jemalloc, which the command is linked with, is set up. Memory that stays unused for a tenth of
-// a second is given back: a quarter less in all for 1000 spheres, at no cost. Huge pages are not
+// How jemalloc, which the command is linked with, is set up. Memory that stays unused for a tenth
+// of a second is given back: a quarter less in all for 1000 spheres, at no cost. Huge pages are not
 // asked for: where the system does not give them unasked, clearing what is not used of them costs
 // more than they save. MALLOC_CONF in the environment overrides this.
 #include "cli/allocator.hpp"
