@@ -14,6 +14,12 @@
 namespace exactcsg {
 namespace {
 
+Rational negative_power_of_two(unsigned long exponent) {
+  Rational power = 1;
+  mpq_div_2exp(power.get_mpq_t(), power.get_mpq_t(), exponent);
+  return power;
+}
+
 Solid box(const Rational& x0, const Rational& y0, const Rational& z0, const Rational& x1,
           const Rational& y1, const Rational& z1) {
   return Solid::primitive({make_box({x0, y0, z0}, {x1, y1, z1})});
@@ -296,6 +302,31 @@ TEST(CanonicalBoundary, DoesNotDependOnThreadsInLargeScenes) {
     EXPECT_EQ(exact_planes(boundary), exact_planes(reference));
     EXPECT_EQ(boundary.statistics.tiers, reference.statistics.tiers);
   }
+}
+
+// LAW boundary.2 where doubles do not tell coordinates apart: some equal, some not.
+TEST(CanonicalBoundary, VerticesAscendExactlyWhereDoublesAreEqual) {
+  const Rational third(1, 3);
+  std::vector<Solid> parts;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      // The farther in x by far less than a unit in the last place, the lower in y, and so on.
+      const Rational little = Rational(i % 3, 1) * negative_power_of_two(120);
+      parts.push_back(box(third + little, 3 * j - i * 20, third - little, 1, 3 * j + 2 - i * 20,
+                          third + 5 + Rational(j % 2, 1) * negative_power_of_two(130)));
+    }
+  }
+  const Boundary boundary = evaluate(Solid::compose(csg::BooleanOperator::Union, parts));
+  ASSERT_EQ(boundary.vertices.size(), 8U * parts.size());
+  std::size_t alike = 0;
+  for (std::size_t i = 0; i + 1 < boundary.vertices.size(); ++i) {
+    EXPECT_TRUE(boundary.vertices[i] < boundary.vertices[i + 1]) << i;
+    if (boundary.approximate[i][0] == boundary.approximate[i + 1][0] &&
+        boundary.vertices[i].x != boundary.vertices[i + 1].x) {
+      ++alike;
+    }
+  }
+  EXPECT_GT(alike, 1U);
 }
 
 // LAW boundary.3

@@ -44,25 +44,55 @@ struct PieceEdge {
   PieceNumber piece;
 };
 
-// Sorts indices of points, whose nearest doubles are known. Rounding to nearest is monotone: exact
-// numbers are compared only where doubles are equal.
-void sort_lexicographically(std::vector<std::uint32_t>& order,
-                            const std::vector<std::array<double, 3>>& nearest,
-                            const ExactPoints& exact, unsigned threads) {
-  const auto x = [&nearest](std::uint32_t i) { return nearest[i][0]; };
-  const DoubleBuckets buckets(order, x, threads);
-  sort_in_buckets(
-      order, buckets.count(), [&](std::uint32_t i) { return buckets.of(x(i)); },
-      [&](std::uint32_t i, std::uint32_t j) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          if (nearest[i][axis] != nearest[j][axis]) return nearest[i][axis] < nearest[j][axis];
-          const std::strong_ordering order = compare(exact.view(i)[axis], exact.view(j)[axis]);
-          if (order != 0) return order < 0;
+// Indices of points, whose nearest doubles are known, in lexicographic order. Rounding to nearest
+// is monotone: the doubles sort all but runs of equal ones, and of these it is enough to know that
+// their exact numbers are equal too, as nearly all are.
+class LexicographicOrder {
+ public:
+  LexicographicOrder(const std::vector<std::array<double, 3>>& nearest, const ExactPoints& exact)
+      : nearest_(nearest), exact_(exact) {}
+
+  void sort(std::vector<std::uint32_t>& order, unsigned threads) const {
+    const auto x = [this](std::uint32_t i) { return nearest_[i][0]; };
+    const DoubleBuckets buckets(order, x, threads);
+    sort_in_buckets(
+        order, buckets.count(), [&](std::uint32_t i) { return buckets.of(x(i)); },
+        [this](std::uint32_t i, std::uint32_t j) { return nearest_[i] < nearest_[j]; }, threads);
+    const Parts parts(order.size(), [&](std::size_t i) { return x(order[i]) != x(order[i - 1]); });
+    in_parallel(threads, parts, [&](std::size_t, std::size_t begin, std::size_t end) {
+      settle(std::span(order).subspan(begin, end - begin), 0);
+    });
+  }
+
+ private:
+  // The coordinates before `axis` are equal, and the rest is sorted by doubles.
+  void settle(std::span<std::uint32_t> run, std::size_t axis) const {
+    for (std::size_t begin = 0; begin < run.size();) {
+      std::size_t end = begin + 1;
+      while (end < run.size() && nearest_[run[end]][axis] == nearest_[run[begin]][axis]) ++end;
+      const auto equals = run.subspan(begin, end - begin);
+      if (equals.size() > 1) {
+        if (axis < 2 && are_equal(equals, axis)) {
+          settle(equals, axis + 1);
+        } else {
+          std::sort(equals.begin(), equals.end(), [this](std::uint32_t i, std::uint32_t j) {
+            return compare(exact_.view(i), exact_.view(j)) < 0;
+          });
         }
-        return false;
-      },
-      threads);
-}
+      }
+      begin = end;
+    }
+  }
+
+  bool are_equal(std::span<const std::uint32_t> run, std::size_t axis) const {
+    const RationalView first = exact_.view(run.front())[axis];
+    return std::all_of(run.begin() + 1, run.end(),
+                       [&](std::uint32_t i) { return equal(first, exact_.view(i)[axis]); });
+  }
+
+  const std::vector<std::array<double, 3>>& nearest_;
+  const ExactPoints& exact_;
+};
 
 // Part of a line that bounds pieces of one oriented plane on one side only.
 struct Segment {
@@ -1217,7 +1247,7 @@ class Merger {
     Positions positions = positions_of(used);
     std::vector<std::uint32_t> order(used.size());
     std::iota(order.begin(), order.end(), 0U);
-    sort_lexicographically(order, positions.nearest, positions.exact, threads_);
+    LexicographicOrder(positions.nearest, positions.exact).sort(order, threads_);
     std::vector<VertexNumber> renumbered(vertices_.size(), none);
     boundary.approximate.reserve(order.size());
     for (const std::uint32_t i : order) {
