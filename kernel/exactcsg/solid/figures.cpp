@@ -99,19 +99,29 @@ struct Mirror {
   bool turns_inside_out() const { return (coordinates[0] != coordinates[1]) != coordinates[2]; }
 };
 
-// Rounding to nearest is monotone: coordinates are compared exactly only where their doubles are
-// equal. REQUIRES boundary.approximate
-bool vertices_ascend(const Boundary& boundary) {
-  const auto descend = [&](std::size_t i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double near = boundary.approximate[i][axis];
-      const double next_near = boundary.approximate[i + 1][axis];
-      if (near != next_near) return near > next_near;
-      const std::strong_ordering order =
-          compare(boundary.vertices.view(i)[axis], boundary.vertices.view(i + 1)[axis]);
-      if (order != 0) return order > 0;
+// The lexicographic order of two points that round to p and q. Rounding to nearest is monotone:
+// their coordinates, which the functions give, are compared only where the doubles are equal.
+template <class ExactOfP, class ExactOfQ>
+std::strong_ordering compare_rounded(const std::array<double, 3>& p, const std::array<double, 3>& q,
+                                     ExactOfP exact_of_p, ExactOfQ exact_of_q) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (p[axis] != q[axis]) {
+      return p[axis] < q[axis] ? std::strong_ordering::less : std::strong_ordering::greater;
     }
-    return false;
+    const std::strong_ordering order = compare(exact_of_p(axis), exact_of_q(axis));
+    if (order != 0) return order;
+  }
+  return std::strong_ordering::equal;
+}
+
+// REQUIRES boundary.approximate
+bool vertices_ascend(const Boundary& boundary) {
+  const auto exact = [&](std::size_t i) {
+    return [&boundary, i](std::size_t axis) { return boundary.vertices.view(i)[axis]; };
+  };
+  const auto descend = [&](std::size_t i) {
+    return compare_rounded(boundary.approximate[i], boundary.approximate[i + 1], exact(i),
+                           exact(i + 1)) > 0;
   };
   for (std::size_t i = 0; i + 1 < boundary.vertices.size(); ++i) {
     if (descend(i)) return false;
@@ -131,16 +141,11 @@ std::optional<std::vector<std::uint32_t>> image_of_vertices(const Boundary& boun
     const std::array<double, 3> near{nearest_double(target.x), nearest_double(target.y),
                                      nearest_double(target.z)};
     const PointView target_view = view_of(target);
-    // Rounding to nearest is monotone: only equal doubles leave the order open.
     const auto precedes = [&](const std::array<double, 3>& candidate) {
       const auto v = static_cast<std::size_t>(&candidate - boundary.approximate.data());
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (candidate[axis] != near[axis]) return candidate[axis] < near[axis];
-        const std::strong_ordering order =
-            compare(boundary.vertices.view(v)[axis], target_view[axis]);
-        if (order != 0) return order < 0;
-      }
-      return false;
+      return compare_rounded(
+                 candidate, near, [&](std::size_t axis) { return boundary.vertices.view(v)[axis]; },
+                 [&](std::size_t axis) { return target_view[axis]; }) < 0;
     };
     const auto at = static_cast<std::size_t>(
         std::partition_point(boundary.approximate.begin(), boundary.approximate.end(), precedes) -
