@@ -577,11 +577,10 @@ class Merger {
     const auto line_at = [&](std::size_t i) { return line_of_edge[order[i]]; };
     const Parts parts(order.size(), [&](std::size_t i) { return line_at(i) != line_at(i - 1); });
     std::vector<std::vector<Segment>> segments(parts.count());
-    std::vector<TierStatistics> tiers(parts.count());
-    in_parallel(
-        threads_, parts, [&](std::size_t part, std::size_t part_begin, std::size_t part_end) {
+    in_parallel_counting(
+        threads_, parts, statistics_,
+        [&](std::size_t part, std::size_t part_begin, std::size_t part_end, TierStatistics& tiers) {
           check();
-          TierStatistics tiers_here;
           segments[part].reserve(part_end - part_begin);
           std::vector<std::uint32_t>& rank = ranks();
           std::vector<VertexNumber> stations;
@@ -594,7 +593,7 @@ class Merger {
               stations.push_back(edges[order[end]].from);
               stations.push_back(edges[order[end]].to);
             }
-            sort_along(line, stations, tiers_here);
+            sort_along(line, stations, tiers);
             for (std::uint32_t i = 0; i < stations.size(); ++i) rank[stations[i]] = i;
             content_[line].first_segment = static_cast<std::uint32_t>(segments[part].size());
             for (std::size_t group = begin; group < end;) {
@@ -611,9 +610,7 @@ class Merger {
                 static_cast<std::uint32_t>(segments[part].size()) - content_[line].first_segment;
             begin = end;
           }
-          tiers[part] = tiers_here;
         });
-    for (const TierStatistics& part : tiers) statistics_ += part;
     // Every line has an edge, so that those of one part follow each other.
     const std::vector<std::size_t> firsts = first_places(segments);
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
@@ -681,30 +678,28 @@ class Merger {
     std::vector<LineNumber> some_line(vertices_.size(), none);
     const Parts parts(content_.size());
     std::vector<std::vector<VertexNumber>> stations(parts.count());
-    std::vector<TierStatistics> tiers(parts.count());
-    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      TierStatistics tiers_here;
-      std::vector<VertexNumber> on_line;
-      for (auto line = static_cast<LineNumber>(begin); line < end; ++line) {
-        on_line.clear();
-        for (const Segment& segment : segments_of(line)) {
-          for (const VertexNumber vertex : {segment.from, segment.to}) {
-            LineNumber known = none;
-            // Whichever line comes first, the second one marks the vertex.
-            if (!std::atomic_ref(some_line[vertex])
-                     .compare_exchange_strong(known, line, std::memory_order_relaxed) &&
-                known != line) {
-              set_mark(is_vertex_[vertex]);
+    in_parallel_counting(
+        threads_, parts, statistics_,
+        [&](std::size_t part, std::size_t begin, std::size_t end, TierStatistics& tiers) {
+          std::vector<VertexNumber> on_line;
+          for (auto line = static_cast<LineNumber>(begin); line < end; ++line) {
+            on_line.clear();
+            for (const Segment& segment : segments_of(line)) {
+              for (const VertexNumber vertex : {segment.from, segment.to}) {
+                LineNumber known = none;
+                // Whichever line comes first, the second one marks the vertex.
+                if (!std::atomic_ref(some_line[vertex])
+                         .compare_exchange_strong(known, line, std::memory_order_relaxed) &&
+                    known != line) {
+                  set_mark(is_vertex_[vertex]);
+                }
+                on_line.push_back(vertex);
+              }
             }
-            on_line.push_back(vertex);
+            sort_along(line, on_line, tiers);
+            add_stations(line, on_line, stations[part]);
           }
-        }
-        sort_along(line, on_line, tiers_here);
-        add_stations(line, on_line, stations[part]);
-      }
-      tiers[part] = tiers_here;
-    });
-    for (const TierStatistics& part : tiers) statistics_ += part;
+        });
     const std::vector<std::size_t> firsts = first_places(stations);
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       for (std::size_t line = begin; line < end; ++line) {

@@ -13,6 +13,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include "exactcsg/number/tier_statistics.hpp"
 #include "exactcsg/skeleton/hand_over.hpp"
 #include "exactcsg/support/give_up.hpp"
 
@@ -94,6 +95,20 @@ template <class Visit>
 void in_parallel(unsigned threads, const Parts& parts, const Visit& visit) {
   in_parallel(threads, parts.count(),
               [&](std::size_t part) { visit(part, parts.begin(part), parts.end(part)); });
+}
+
+// visit(part, begin, end, tiers) for every part; what it counts in `tiers` is added to
+// `statistics`.
+template <class Visit>
+void in_parallel_counting(unsigned threads, const Parts& parts, TierStatistics& statistics,
+                          const Visit& visit) {
+  std::vector<TierStatistics> counted(parts.count());
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    TierStatistics tiers;  // of its own, since neighbours in a vector share lines of the cache
+    visit(part, begin, end, tiers);
+    counted[part] = tiers;
+  });
+  for (const TierStatistics& tiers : counted) statistics += tiers;
 }
 
 // round(i) for every i below count, many of which are done at once: for short rounds.

@@ -78,25 +78,23 @@ InternedLines intern(const Geometry& geometry, std::span<const LineSample> sampl
   const Parts& parts = clusters.parts();
   // By part, and numbered from 0 in each.
   std::vector<std::vector<LineSample>> distinct(parts.count());
-  std::vector<TierStatistics> tiers(parts.count());
-  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-    std::vector<LineSample>& lines = distinct[part];
-    lines.reserve(end - begin);
-    TierStatistics tiers_here;
-    clusters.for_each(part, [&](std::span<const KeyInterval> cluster) {
-      const auto first = static_cast<std::ptrdiff_t>(lines.size());
-      for (const KeyInterval& key : cluster) {
-        const auto known =
-            std::find_if(lines.begin() + first, lines.end(), [&](const LineSample& line) {
-              return lies_on(geometry, samples[key.item], line, tiers_here);
-            });
-        result.number[key.item] = static_cast<std::uint32_t>(known - lines.begin());
-        if (known == lines.end()) lines.push_back(samples[key.item]);
-      }
-    });
-    tiers[part] = tiers_here;
-  });
-  for (const TierStatistics& part : tiers) statistics += part;
+  in_parallel_counting(
+      threads, parts, statistics,
+      [&](std::size_t part, std::size_t begin, std::size_t end, TierStatistics& tiers) {
+        std::vector<LineSample>& lines = distinct[part];
+        lines.reserve(end - begin);
+        clusters.for_each(part, [&](std::span<const KeyInterval> cluster) {
+          const auto first = static_cast<std::ptrdiff_t>(lines.size());
+          for (const KeyInterval& key : cluster) {
+            const auto known =
+                std::find_if(lines.begin() + first, lines.end(), [&](const LineSample& line) {
+                  return lies_on(geometry, samples[key.item], line, tiers);
+                });
+            result.number[key.item] = static_cast<std::uint32_t>(known - lines.begin());
+            if (known == lines.end()) lines.push_back(samples[key.item]);
+          }
+        });
+      });
   const std::vector<std::size_t> firsts = first_places(distinct);
   in_parallel(threads, parts, [&](std::size_t part, std::size_t, std::size_t) {
     const auto first = static_cast<std::uint32_t>(firsts[part]);

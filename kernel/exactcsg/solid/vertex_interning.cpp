@@ -183,24 +183,22 @@ InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices
   const Parts& parts = clusters.parts();
   // By part, and numbered from 0 in each.
   std::vector<std::vector<Vertex>> distinct(parts.count());
-  std::vector<TierStatistics> tiers(parts.count());
-  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-    distinct[part].reserve(end - begin);
-    TierStatistics tiers_here;
-    ClusterVertices cluster_vertices(geometry, tiers_here);
-    clusters.for_each(part, [&](std::span<const KeyInterval> cluster) {
-      const std::size_t first = distinct[part].size();
-      cluster_vertices.clear();
-      for (const KeyInterval& key : cluster) {
-        const std::size_t place = cluster_vertices.place_of(items.vertex(key.item));
-        number_of(key.item) = static_cast<std::uint32_t>(first + place);
-      }
-      distinct[part].insert(distinct[part].end(), cluster_vertices.distinct().begin(),
-                            cluster_vertices.distinct().end());
-    });
-    tiers[part] = tiers_here;
-  });
-  for (const TierStatistics& part : tiers) statistics += part;
+  in_parallel_counting(
+      threads, parts, statistics,
+      [&](std::size_t part, std::size_t begin, std::size_t end, TierStatistics& tiers) {
+        distinct[part].reserve(end - begin);
+        ClusterVertices cluster_vertices(geometry, tiers);
+        clusters.for_each(part, [&](std::span<const KeyInterval> cluster) {
+          const std::size_t first = distinct[part].size();
+          cluster_vertices.clear();
+          for (const KeyInterval& key : cluster) {
+            const std::size_t place = cluster_vertices.place_of(items.vertex(key.item));
+            number_of(key.item) = static_cast<std::uint32_t>(first + place);
+          }
+          distinct[part].insert(distinct[part].end(), cluster_vertices.distinct().begin(),
+                                cluster_vertices.distinct().end());
+        });
+      });
   const std::vector<std::size_t> firsts = first_places(distinct);
   in_parallel(threads, parts, [&](std::size_t part, std::size_t, std::size_t) {
     const auto first = static_cast<std::uint32_t>(firsts[part]);
