@@ -65,22 +65,20 @@ std::size_t limbs_of(const Shapes& shapes) {
   return limbs_of(shapes[0]) + limbs_of(shapes[1]) + limbs_of(shapes[2]);
 }
 
-// The shapes of a record, and where its numbers begin.
-struct Header {
-  Shapes shapes;
-  const mp_limb_t* numbers;
-};
+bool has_long_header(const mp_limb_t* record) { return (*record & long_header) != 0; }
 
-Header header_of(const mp_limb_t* record) {
-  Header header{{}, record + 1};
-  const mp_limb_t bits = *record;
-  const bool is_long = (bits & long_header) != 0;
-  for (unsigned i = 0; i < 3; ++i) {
-    header.shapes[i] = is_long ? unpacked(*header.numbers++, long_size_bits, long_size_bits)
-                               : unpacked(bits >> (i * short_shape_bits), short_numerator_bits,
-                                          short_denominator_bits);
-  }
-  return header;
+const mp_limb_t* numbers_of(const mp_limb_t* record) {
+  return record + (has_long_header(record) ? 4 : 1);
+}
+
+Shape shape_of(const mp_limb_t* record, unsigned axis) {
+  if (has_long_header(record)) return unpacked(record[axis + 1], long_size_bits, long_size_bits);
+  return unpacked(*record >> (axis * short_shape_bits), short_numerator_bits,
+                  short_denominator_bits);
+}
+
+Shapes shapes_of(const mp_limb_t* record) {
+  return {shape_of(record, 0), shape_of(record, 1), shape_of(record, 2)};
 }
 
 }  // namespace
@@ -108,23 +106,20 @@ mp_limb_t* ExactPoints::allocate(std::size_t limbs) {
 }
 
 PointView ExactPoints::view(std::size_t i) const {
-  const Header header = header_of(records_[i]);
-  PointView point;
-  const mp_limb_t* limbs = header.numbers;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Shape& shape = header.shapes[axis];
-    RationalView& value = point[axis];
-    value.negative = shape.negative;
-    value.numerator = {limbs, shape.numerator};
-    limbs += shape.numerator;
-    if (shape.binary_denominator) {
-      value.exponent = shape.denominator;
-    } else {
-      value.denominator = {limbs, shape.denominator};
-      limbs += shape.denominator;
-    }
-  }
-  return point;
+  const mp_limb_t* const record = records_[i];
+  const mp_limb_t* limbs = numbers_of(record);
+  const auto next = [&](unsigned axis) {
+    const Shape shape = shape_of(record, axis);
+    const mp_limb_t* const numerator = limbs;
+    const mp_limb_t* const denominator = numerator + shape.numerator;
+    limbs = denominator + (shape.binary_denominator ? 0 : shape.denominator);
+    return RationalView{{numerator, denominator},
+                        {denominator, limbs},
+                        shape.binary_denominator ? shape.denominator : 0,
+                        shape.negative};
+  };
+  // Initialised in this order.
+  return {next(0), next(1), next(2)};
 }
 
 void ExactPoints::push_back(const Point3& point) {
@@ -171,10 +166,9 @@ namespace {
 bool equal_records(const mp_limb_t* a, const mp_limb_t* b) {
   if (a == b) return true;
   if (*a != *b) return false;  // before more of the header is read: it is of the same length now
-  const Header header = header_of(a);
-  if (!std::equal(a, header.numbers, b)) return false;
-  return std::equal(header.numbers, header.numbers + limbs_of(header.shapes),
-                    b + (header.numbers - a));
+  const mp_limb_t* const numbers = numbers_of(a);
+  if (!std::equal(a, numbers, b)) return false;
+  return std::equal(numbers, numbers + limbs_of(shapes_of(a)), b + (numbers - a));
 }
 
 }  // namespace

@@ -66,8 +66,14 @@ void assign_cross_product(Integer& result, const RationalView& a, const Rational
                        static_cast<mp_size_t>(b.denominator.size())));
 }
 
+std::strong_ordering compare_magnitudes(LimbSpan a, LimbSpan b) {
+  if (a.size() != b.size()) return a.size() <=> b.size();
+  return mpn_cmp(a.data(), b.data(), static_cast<mp_size_t>(a.size())) <=> 0;
+}
+
 // REQUIRES neither is zero
 std::strong_ordering compare_magnitudes(const RationalView& a, const RationalView& b) {
+  if (equal_denominators(a, b)) return compare_magnitudes(a.numerator, b.numerator);
   // Heads are cut by less than one, so that a product's bits, as they are made to begin with a one,
   // are cut by less than 2 (2^64 + 2^64 + 1).
   constexpr Wide margin = Wide{1} << 67U;
@@ -128,9 +134,10 @@ void set_denominator(Integer& result, const RationalView& value) {
   assign_denominator(result.get_mpz_t(), value);
 }
 
+// Different numbers mostly differ in the numerator's lowest limb already.
 bool equal(const RationalView& a, const RationalView& b) {
-  return a.negative == b.negative && equal_denominators(a, b) &&
-         std::ranges::equal(a.numerator, b.numerator);
+  return a.negative == b.negative && std::ranges::equal(a.numerator, b.numerator) &&
+         equal_denominators(a, b);
 }
 
 bool equal_denominators(const RationalView& a, const RationalView& b) {
@@ -140,7 +147,6 @@ bool equal_denominators(const RationalView& a, const RationalView& b) {
 std::strong_ordering compare(const RationalView& a, const RationalView& b) {
   if (a.negative != b.negative) return b.negative <=> a.negative;
   if (a.is_zero() || b.is_zero()) return a.numerator.size() <=> b.numerator.size();
-  if (equal(a, b)) return std::strong_ordering::equal;
   return a.negative ? compare_magnitudes(b, a) : compare_magnitudes(a, b);
 }
 

@@ -43,15 +43,20 @@ class Sha256 {
 
 static_assert(std::endian::native == std::endian::little);
 
-// Eight digits from 32 bits, the first digit in the lowest byte.
-std::uint64_t hexadecimal_digits(std::uint32_t value) {
-  std::uint64_t nibbles = value;
-  nibbles = (nibbles | nibbles << 16U) & 0x0000ffff0000ffffU;
-  nibbles = (nibbles | nibbles << 8U) & 0x00ff00ff00ff00ffU;
-  nibbles = (nibbles | nibbles << 4U) & 0x0f0f0f0f0f0f0f0fU;
-  const std::uint64_t letters = (nibbles + 0x0606060606060606U) >> 4U & 0x0101010101010101U;
-  constexpr std::uint64_t from_nine_to_letters = 'a' - '9' - 1;
-  return __builtin_bswap64(nibbles + 0x3030303030303030U + letters * from_nine_to_letters);
+using Characters [[gnu::vector_size(16)]] = signed char;
+using TwoLimbs [[gnu::vector_size(16)]] = mp_limb_t;
+
+// The sixteen digits of a limb.
+void write_limb(char* text, mp_limb_t value) {
+  constexpr mp_limb_t low_halves = 0x0f0f0f0f0f0f0f0fU;
+  const mp_limb_t bytes = __builtin_bswap64(value);  // as they are read: the first digits first
+  const auto first = reinterpret_cast<Characters>(TwoLimbs{bytes >> 4U & low_halves, 0});
+  const auto second = reinterpret_cast<Characters>(TwoLimbs{bytes & low_halves, 0});
+  const Characters digits = __builtin_shufflevector(first, second, 0, 16, 1, 17, 2, 18, 3, 19, 4,
+                                                    20, 5, 21, 6, 22, 7, 23);
+  const Characters is_letter = digits > 9;  // -1 if so
+  const Characters characters = digits + '0' + (is_letter & ('a' - '9' - 1));
+  std::memcpy(text, &characters, sizeof characters);
 }
 
 // Numbers that are written often, as text that ends in a blank.
@@ -152,13 +157,6 @@ class HashedText {
       used_ += number.exponent / 4;
     }
   }
-  static void write_limb(char* text, mp_limb_t value) {
-    const std::array<std::uint64_t, 2> digits{
-        hexadecimal_digits(static_cast<std::uint32_t>(value >> 32U)),
-        hexadecimal_digits(static_cast<std::uint32_t>(value))};
-    std::memcpy(text, digits.data(), digits_of_limb);
-  }
-
   char* end() { return buffer_.data() + used_; }
   void reserve(std::size_t size) {
     if (buffer_.size() - used_ >= size) return;
@@ -175,15 +173,25 @@ class HashedText {
   std::size_t used_ = 0;
 };
 
+bool ascend(const ExactPoints& points) {
+  if (points.empty()) return true;
+  PointView last = points.view(0);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const PointView next = points.view(i);
+    if (compare(next, last) < 0) return false;
+    last = next;
+  }
+  return true;
+}
+
 // The vertices in lexicographic order.
 std::vector<std::uint32_t> sorted_vertices(const Boundary& boundary) {
   std::vector<std::uint32_t> order(boundary.vertices.size());
   std::iota(order.begin(), order.end(), 0U);
-  const auto earlier = [&](std::uint32_t i, std::uint32_t j) {
-    return compare(boundary.vertices.view(i), boundary.vertices.view(j)) < 0;
-  };
-  if (!std::is_sorted(order.begin(), order.end(), earlier)) {
-    std::stable_sort(order.begin(), order.end(), earlier);
+  if (!ascend(boundary.vertices)) {
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+      return compare(boundary.vertices.view(i), boundary.vertices.view(j)) < 0;
+    });
   }
   return order;
 }

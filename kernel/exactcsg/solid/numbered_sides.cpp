@@ -2,7 +2,7 @@
 #include "exactcsg/solid/numbered_sides.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <numeric>
 
 #include "exactcsg/solid/bucket_sort.hpp"
 
@@ -10,52 +10,90 @@ namespace exactcsg {
 
 namespace {
 
-// By the boundary's own numbers of planes.
-std::vector<NumberedSide> sides_by_plane(const Boundary& boundary,
-                                         std::span<const std::uint32_t> rename,
-                                         SideDirection direction) {
-  std::vector<NumberedSide> sides;
-  for (const BoundaryFace& face : boundary.faces) {
-    for (const std::vector<std::uint32_t>& loop : face.loops) {
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        std::uint32_t from = rename[loop[k]];
-        std::uint32_t to = rename[loop[k + 1 == loop.size() ? 0 : k + 1]];
-        if (direction == SideDirection::Reversed) std::swap(from, to);
-        sides.push_back({face.plane, from, to});
-      }
+// (from, to) in 64 bits, which are compared as the pair is.
+using Side = std::uint64_t;
+
+Side side_between(std::uint32_t from, std::uint32_t to) { return Side{from} << 32U | to; }
+
+using SidesOfPlane = std::span<const Side>;
+
+// The sorted sides of each plane, by the boundary's own numbers of planes.
+class SidesByPlane {
+ public:
+  SidesByPlane(const Boundary& boundary, std::span<const std::uint32_t> rename,
+               SideDirection direction)
+      : end_(boundary.plane_count + std::size_t{1}) {
+    for (const BoundaryFace& face : boundary.faces) {
+      for (const auto& loop : face.loops) end_[face.plane + std::size_t{1}] += loop.size();
+    }
+    std::partial_sum(end_.begin(), end_.end(), end_.begin());
+    sides_.resize(end_.back());
+    for (const BoundaryFace& face : boundary.faces) {
+      for (const auto& loop : face.loops) add_loop(face.plane, loop, rename, direction);
+    }
+    for (std::uint32_t plane = 0; plane < boundary.plane_count; ++plane) {
+      Side* const begin = sides_.data() + begin_of(plane);
+      Side* const end = sides_.data() + end_[plane];
+      if (!std::is_sorted(begin, end)) std::sort(begin, end);
     }
   }
-  sort_in_buckets(
-      sides, boundary.plane_count, [](const NumberedSide& side) { return side[0]; }, std::less<>());
-  return sides;
-}
+
+  std::size_t count() const { return sides_.size(); }
+  SidesOfPlane of(std::uint32_t plane) const {
+    return SidesOfPlane(sides_).subspan(begin_of(plane), end_[plane] - begin_of(plane));
+  }
+
+ private:
+  std::size_t begin_of(std::uint32_t plane) const { return plane == 0 ? 0 : end_[plane - 1]; }
+
+  void add_loop(std::uint32_t plane, const std::vector<std::uint32_t>& loop,
+                std::span<const std::uint32_t> rename, SideDirection direction) {
+    if (loop.empty()) return;
+    // While sides are added, this is where the next one of the plane belongs.
+    std::size_t& place = end_[plane];
+    std::uint32_t from = rename[loop.back()];
+    for (const std::uint32_t vertex : loop) {
+      const std::uint32_t to = rename[vertex];
+      sides_[place++] =
+          direction == SideDirection::Kept ? side_between(from, to) : side_between(to, from);
+      from = to;
+    }
+  }
+
+  std::vector<std::size_t> end_;
+  std::vector<Side> sides_;
+};
 
 }  // namespace
 
 std::vector<NumberedSide> numbered_sides(const Boundary& boundary,
                                          std::span<const std::uint32_t> rename,
                                          SideDirection direction) {
-  const std::vector<NumberedSide> sides = sides_by_plane(boundary, rename, direction);
-  using SidesOfPlane = std::span<const NumberedSide>;
+  const SidesByPlane sides(boundary, rename, direction);
   std::vector<SidesOfPlane> planes;
-  for (std::size_t begin = 0; begin < sides.size();) {
-    std::size_t end = begin + 1;
-    while (end < sides.size() && sides[end][0] == sides[begin][0]) ++end;
-    planes.push_back(std::span(sides).subspan(begin, end - begin));
-    begin = end;
+  planes.reserve(boundary.plane_count);
+  for (std::uint32_t plane = 0; plane < boundary.plane_count; ++plane) {
+    if (const SidesOfPlane of_plane = sides.of(plane); !of_plane.empty()) {
+      planes.push_back(of_plane);
+    }
   }
-  const auto earlier_side = [](const NumberedSide& a, const NumberedSide& b) {
-    return a[1] != b[1] ? a[1] < b[1] : a[2] < b[2];
+  const auto earlier = [](SidesOfPlane a, SidesOfPlane b) {
+    if (a.front() != b.front()) return a.front() < b.front();
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
   };
-  sort_in_buckets(
-      planes, rename.size(), [](SidesOfPlane plane) { return plane.front()[1]; },
-      [&](SidesOfPlane a, SidesOfPlane b) {
-        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), earlier_side);
-      });
+  // As they are where the vertices keep their numbers, nearly always.
+  if (!std::is_sorted(planes.begin(), planes.end(), earlier)) {
+    sort_in_buckets(
+        planes, rename.size(),
+        [](SidesOfPlane plane) { return static_cast<std::size_t>(plane.front() >> 32U); }, earlier);
+  }
   std::vector<NumberedSide> result;
-  result.reserve(sides.size());
+  result.reserve(sides.count());
   for (std::uint32_t p = 0; p < planes.size(); ++p) {
-    for (const NumberedSide& side : planes[p]) result.push_back({p, side[1], side[2]});
+    for (const Side side : planes[p]) {
+      result.push_back(
+          {p, static_cast<std::uint32_t>(side >> 32U), static_cast<std::uint32_t>(side)});
+    }
   }
   return result;
 }
