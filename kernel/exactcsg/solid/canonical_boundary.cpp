@@ -266,6 +266,7 @@ class Merger {
                           }
                         }
                         primitive_of_piece_[number] = whole_primitive_of(piece);
+                        if (piece.is_hole) faces_.unite(number - 1, number);
                       });
     });
     settled_edges_ = joined(threads_, std::move(settled_edges));

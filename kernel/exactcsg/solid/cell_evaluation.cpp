@@ -9,6 +9,13 @@ namespace exactcsg {
 
 using csg::Membership;
 
+namespace {
+
+// That are kept from one facet to the next, lest cells with many facets take too much memory.
+constexpr std::size_t most_vertices = 1U << 14U;
+
+}  // namespace
+
 CellEvaluator::CellEvaluator(const Scene& scene, Progress* progress)
     : scene_(scene),
       progress_(progress),
@@ -19,33 +26,35 @@ CellEvaluator::CellEvaluator(const Scene& scene, Progress* progress)
 void CellEvaluator::build_local_forms(std::span<const CellFacet> facets) {
   nodes_.clear();
   locals_.clear();
-  std::vector<FacetPolygon> polygons;
+  planes_.clear();
+  for (const CellFacet& facet : facets) planes_.push_back(facet.polygon.plane);
   for (std::size_t begin = 0; begin < facets.size();) {
     std::size_t end = begin;
-    polygons.clear();
-    while (end < facets.size() && facets[end].primitive == facets[begin].primitive) {
-      polygons.push_back(facets[end].polygon);
-      ++end;
-    }
+    while (end < facets.size() && facets[end].primitive == facets[begin].primitive) ++end;
     const PrimitiveIndex primitive = facets[begin].primitive;
-    const LocalPlace root = scene_.primitives[primitive].convex
-                                ? append_convex_form(polygons, nodes_)
-                                : append_mesh_form(scene_.geometry, polygons, nodes_, *statistics_);
-    locals_.push_back({primitive, root, begin, end - begin});
+    const bool convex = scene_.primitives[primitive].convex;
+    const LocalPlace root = convex ? LocalPlace::decided(Membership::Out)
+                                   : local_form_of_mesh(facets.subspan(begin, end - begin));
+    locals_.push_back({primitive, convex, root, static_cast<std::uint32_t>(begin),
+                       static_cast<std::uint32_t>(end - begin)});
     begin = end;
   }
 }
 
-void CellEvaluator::order_primitives_for(const CellFacet& facet,
-                                         std::span<const CellFacet> facets) {
+LocalPlace CellEvaluator::local_form_of_mesh(std::span<const CellFacet> facets) {
+  std::vector<FacetPolygon> polygons;
+  polygons.reserve(facets.size());
+  for (const CellFacet& facet : facets) polygons.push_back(facet.polygon);
+  return append_mesh_form(scene_.geometry, polygons, nodes_, *statistics_);
+}
+
+void CellEvaluator::order_primitives_for(const CellFacet& facet) {
   order_.clear();
   const auto has_coplanar_facet = [&](const LocalPrimitive& local) {
-    return std::any_of(
-        facets.begin() + static_cast<std::ptrdiff_t>(local.first_facet),
-        facets.begin() + static_cast<std::ptrdiff_t>(local.first_facet + local.facet_count),
-        [&](const CellFacet& other) {
-          return other.polygon.plane.plane == facet.polygon.plane.plane;
-        });
+    const auto planes = std::span(planes_).subspan(local.first_facet, local.facet_count);
+    return std::any_of(planes.begin(), planes.end(), [&](OrientedPlaneRef plane) {
+      return plane.plane == facet.polygon.plane.plane;
+    });
   };
   for (std::uint32_t i = 0; i < locals_.size(); ++i) {
     if (locals_[i].primitive != facet.primitive) order_.push_back(i);
@@ -62,18 +71,24 @@ void CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree
   statistics_ = &statistics;
   build_local_forms(facets);
   truth_.assign(tree, {});
+  store_.clear();
   for (const CellFacet& facet : facets) {
     if (progress_ != nullptr) progress_->check();
     facet_ = &facet;
-    order_primitives_for(facet, facets);
+    order_primitives_for(facet);
     const bool outward_front = facet.polygon.plane.sense > 0;
     truth_.change(facet.primitive, outward_front ? BothSides{Membership::Out, Membership::In}
                                                  : BothSides{Membership::In, Membership::Out});
-    pool_.clear();
-    facet.polygon.corners.append_to(pool_);
+    if (store_.vertex_count() > most_vertices) store_.clear();
+    decided_.clear();
+    crossings_.clear();
+    for (std::uint32_t place = 0; place < order_.size(); ++place) {
+      crossings_.push_back({place, {}, {}});
+    }
     const PieceCollector::Mark before = result.mark();
-    classify({0, pool_.size(), facet.share}, 0);
+    classify({append_polygon(facet.polygon.corners, store_), facet.share}, {0, order_.size()});
     join_pieces(facet, before);
+    store_.corners.clear();
     truth_.change(facet.primitive, {});
   }
 }
@@ -93,30 +108,257 @@ void CellEvaluator::join_pieces(const CellFacet& facet, const PieceCollector::Ma
   result_->add(joined.plane, joined.corner_sense, facet.facet, facet.share, facet.polygon.corners);
 }
 
-void CellEvaluator::classify(Range piece, std::size_t next) {
-  const auto [front, behind] = truth_.value();
-  if (front != Membership::Unknown && behind != Membership::Unknown) {
-    if (front == behind) return;
-    // A lower primitive that covers the piece in the same plane would emit it too.
-    if (next >= coplanar_count_) {
-      const signed char outward = behind == Membership::In ? 1 : -1;
-      result_->add({facet_->polygon.plane.plane, outward}, facet_->polygon.plane.sense,
-                   facet_->facet, piece.share,
-                   std::span(pool_).subspan(piece.begin, piece.end - piece.begin));
-      return;
-    }
+void CellEvaluator::classify(Part part, Crossings candidates) {
+  const std::size_t first_crossing = crossings_.size();
+  const std::size_t first_decided = decided_.size();
+  const std::size_t first_corner = store_.corners.size();
+  switch (decide_uncrossed(part, candidates)) {
+    case Outcome::NoBoundary:
+      break;
+    case Outcome::Boundary:
+      emit(part.polygon, part.share, *outward_sense());
+      break;
+    case Outcome::Undecided:
+      divide(part, candidates);
+      break;
   }
-  if (next == order_.size()) {
-    throw Error(ErrorId::InternalError, {"a facet that is still undecided", "a decided one"});
-  }
-  const LocalPlace root = locals_[order_[next]].root;
-  descend(piece, root, root, next);
+  crossings_.resize(first_crossing);
+  undo_decisions(first_decided);
+  store_.corners.resize(first_corner);
 }
 
-void CellEvaluator::descend(Range piece, LocalPlace front, LocalPlace behind, std::size_t next) {
+// What the boundary's outward normal is along the plane's stored one, or 0: no boundary. nullopt:
+// not known.
+std::optional<signed char> CellEvaluator::outward_sense() const {
+  const auto [front, behind] = truth_.value();
+  if (front == Membership::Unknown || behind == Membership::Unknown) return std::nullopt;
+  if (front == behind) return static_cast<signed char>(0);
+  return static_cast<signed char>(behind == Membership::In ? 1 : -1);
+}
+
+bool CellEvaluator::is_no_boundary_if(PrimitiveIndex primitive, const BothSides& sides) {
+  truth_.change(primitive, sides);
+  const auto outward = outward_sense();
+  truth_.change(primitive, {});
+  return outward && *outward == 0;
+}
+
+// Decides all primitives that do not cross the part, as long as that matters; the others are the
+// candidates that are left. A part of which only the section with a primitive can be boundary
+// becomes that section.
+CellEvaluator::Outcome CellEvaluator::decide_uncrossed(Part& part, Crossings& candidates) {
+  const BothSides out{Membership::Out, Membership::Out};
+  const std::size_t first_crossing = crossings_.size();
+  bool coplanar_crosses = false;
+  for (std::size_t i = candidates.begin; i < candidates.end; ++i) {
+    Crossing crossing{crossings_[i].place, {}, {Membership::In, Membership::In}};
+    if (const auto outward = outward_sense()) {
+      if (*outward == 0) return Outcome::NoBoundary;
+      if (!coplanar_crosses && !is_coplanar(crossing)) return Outcome::Boundary;
+    }
+    const LocalPrimitive& other = local(crossing);
+    const Relation relation =
+        other.convex ? relate(part.polygon, other, crossing) : Relation::Across;
+    switch (relation) {
+      case Relation::Outside:
+        decide(other.primitive, out);
+        break;
+      case Relation::Inside:
+        if (is_left_to(other.primitive, crossing.inside)) return Outcome::NoBoundary;
+        decide(other.primitive, crossing.inside);
+        break;
+      case Relation::Across:
+        if (other.convex && is_no_boundary_if(other.primitive, out)) {
+          if (is_left_to(other.primitive, crossing.inside)) return Outcome::NoBoundary;
+          decide(other.primitive, crossing.inside);
+          part = {crossing.section, part.share / 2};
+          forget_whole(part.polygon, store_);
+          if (crossings_.size() == first_crossing) break;
+          // What crossed the part as it was may not cross what is left of it.
+          for (std::size_t later = i + 1; later < candidates.end; ++later) {
+            crossings_.push_back(Crossing(crossings_[later]));
+          }
+          candidates = {first_crossing, crossings_.size()};
+          return decide_uncrossed(part, candidates);
+        }
+        coplanar_crosses |= is_coplanar(crossing);
+        crossings_.push_back(crossing);
+        break;
+    }
+  }
+  candidates = {first_crossing, crossings_.size()};
+  const auto outward = outward_sense();
+  if (outward && *outward == 0) return Outcome::NoBoundary;
+  if (outward && !coplanar_crosses) return Outcome::Boundary;
+  if (candidates.begin == candidates.end) {
+    throw Error(ErrorId::InternalError, {"a facet that is still undecided", "a decided one"});
+  }
+  return Outcome::Undecided;
+}
+
+// All planes are looked at before any of them cuts: one that leaves the polygon outside ends it.
+CellEvaluator::Relation CellEvaluator::relate(const CornerRun& polygon, const LocalPrimitive& local,
+                                              Crossing& crossing) {
+  const PlaneRef own = facet_->polygon.plane.plane;
+  const auto outside = [](OrientedPlaneRef plane) {
+    return plane.sense > 0 ? PlaneSplit::AllPositive : PlaneSplit::AllNegative;
+  };
+  cutting_.clear();
+  for (const OrientedPlaneRef plane :
+       std::span(planes_).subspan(local.first_facet, local.facet_count)) {
+    if (plane.plane == own) {
+      crossing.inside = plane.sense > 0 ? BothSides{Membership::Out, Membership::In}
+                                        : BothSides{Membership::In, Membership::Out};
+      continue;
+    }
+    const PlaneSplit side = split(polygon, plane.plane);
+    if (side == outside(plane)) return Relation::Outside;
+    if (side != PlaneSplit::Both) continue;
+    if (cutting_.empty()) signs_.swap(first_signs_);
+    cutting_.push_back(plane);
+  }
+  if (cutting_.empty()) return Relation::Inside;
+  crossing.section = polygon;
+  for (const OrientedPlaneRef plane : cutting_) {
+    if (plane == cutting_.front()) {
+      signs_.swap(first_signs_);
+    } else {
+      const PlaneSplit side = split(crossing.section, plane.plane);
+      if (side == outside(plane)) return Relation::Outside;
+      if (side != PlaneSplit::Both) continue;
+    }
+    const CuttingPlane cut{plane.plane, signs_};
+    const auto crossed = append_crossings(scene_.geometry, own, crossing.section, cut, store_);
+    const Sign inner = plane.sense > 0 ? Sign::Negative : Sign::Positive;
+    crossing.section = append_part(crossing.section, cut, inner, crossed, store_);
+  }
+  return Relation::Across;
+}
+
+// The sides of all corners into signs_.
+PlaneSplit CellEvaluator::split(const CornerRun& polygon, PlaneRef plane) {
+  const std::span<const SectionCorner> corners = store_.of(polygon);
+  signs_.resize(corners.size());
+  bool negative = false;
+  bool positive = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    signs_[i] = scene_.geometry.side(store_.vertex(corners[i]), plane, *statistics_);
+    negative |= signs_[i] == Sign::Negative;
+    positive |= signs_[i] == Sign::Positive;
+  }
+  if (negative && positive) return PlaneSplit::Both;
+  if (!negative && !positive) {
+    throw Error(ErrorId::InternalError, {"a facet in a plane that is not its own", ""});
+  }
+  return positive ? PlaneSplit::AllPositive : PlaneSplit::AllNegative;
+}
+
+void CellEvaluator::divide(const Part& part, Crossings crossings) {
+  const auto first = crossings_.begin() + static_cast<std::ptrdiff_t>(crossings.begin);
+  const auto mesh = std::find_if(first, crossings_.end(),
+                                 [&](const Crossing& crossing) { return !local(crossing).convex; });
+  if (mesh != crossings_.end()) {
+    std::rotate(first, mesh, mesh + 1);
+    const LocalPlace root = local(*first).root;
+    descend(part, root, root, crossings);
+  } else if (crossings.end - crossings.begin == 1) {
+    emit_on_either_side(part, *first);
+  } else {
+    const PlaneRef plane = choose_plane(crossings);
+    if (split(part.polygon, plane) != PlaneSplit::Both) {
+      throw Error(ErrorId::InternalError, {"a section's side outside the polygon", ""});
+    }
+    const auto [positive, negative] = halves(part, plane);
+    classify_half(positive, crossings, plane, PlaneSplit::AllNegative);
+    classify_half(negative, crossings, plane, PlaneSplit::AllPositive);
+  }
+}
+
+// Of the primitives that cross the whole, those with a section on the other side leave this half
+// outside.
+void CellEvaluator::classify_half(const Part& half, Crossings crossings, PlaneRef plane,
+                                  PlaneSplit other_side) {
+  const std::size_t first_decided = decided_.size();
+  const std::size_t first_candidate = crossings_.size();
+  for (std::size_t i = crossings.begin; i < crossings.end; ++i) {
+    const Crossing crossing = crossings_[i];
+    if (split(crossing.section, plane) == other_side) {
+      decide(local(crossing).primitive, {Membership::Out, Membership::Out});
+    } else {
+      crossings_.push_back(crossing);
+    }
+  }
+  classify(half, {first_candidate, crossings_.size()});
+  crossings_.resize(first_candidate);
+  undo_decisions(first_decided);
+}
+
+// The only primitive left is convex.
+void CellEvaluator::emit_on_either_side(const Part& part, const Crossing& crossing) {
+  const PrimitiveIndex primitive = local(crossing).primitive;
+  const auto outward_if = [&](const BothSides& sides) -> signed char {
+    if (is_left_to(primitive, sides)) return 0;
+    truth_.change(primitive, sides);
+    const auto outward = outward_sense();
+    truth_.change(primitive, {});
+    if (!outward) {
+      throw Error(ErrorId::InternalError, {"a facet that is still undecided", "a decided one"});
+    }
+    return *outward;
+  };
+  const signed char outside = outward_if({Membership::Out, Membership::Out});
+  const signed char inside = outward_if(crossing.inside);
+  if (inside == outside) {
+    if (inside != 0) emit(part.polygon, part.share, inside);
+    return;
+  }
+  if (inside != 0) emit(crossing.section, part.share / 2, inside);
+  if (outside != 0) emit_remainder(part, crossing.section, outside);
+}
+
+// A side of a section inside the part, with other sections beyond it where there is such a one.
+PlaneRef CellEvaluator::choose_plane(Crossings crossings) {
+  const CornerRun section = crossings_[crossings.begin].section;
+  std::optional<PlaneRef> best;
+  std::size_t most_beyond = 0;
+  for (std::size_t i = section.begin; i < section.end; ++i) {
+    if (store_.corners[i].side != SectionCorner::none) continue;
+    const PlaneRef plane = store_.corners[i].side_plane;
+    const PlaneSplit inner = split(section, plane);
+    std::size_t beyond = 0;
+    for (std::size_t other = crossings.begin + 1; other < crossings.end; ++other) {
+      const PlaneSplit side = split(crossings_[other].section, plane);
+      if (side != PlaneSplit::Both && side != inner) ++beyond;
+    }
+    if (!best || beyond > most_beyond) {
+      best = plane;
+      most_beyond = beyond;
+    }
+    if (most_beyond == crossings.end - crossings.begin - 1) break;
+  }
+  if (!best) throw Error(ErrorId::InternalError, {"a section that is the whole", "a part"});
+  return *best;
+}
+
+// REQUIRES the signs of split, which said Both
+std::array<CellEvaluator::Part, 2> CellEvaluator::halves(const Part& part, PlaneRef plane) {
+  const CuttingPlane cut{plane, signs_};
+  const auto crossed =
+      append_crossings(scene_.geometry, facet_->polygon.plane.plane, part.polygon, cut, store_);
+  std::array<Part, 2> result;
+  for (const Sign kept : {Sign::Positive, Sign::Negative}) {
+    Part& half = result[kept == Sign::Positive ? 0 : 1];
+    half = {append_part(part.polygon, cut, kept, crossed, store_), part.share / 2};
+    forget_whole(half.polygon, store_);
+  }
+  return result;
+}
+
+// Down the local form of the mesh that comes first.
+void CellEvaluator::descend(Part part, LocalPlace front, LocalPlace behind, Crossings crossings) {
   const PlaneRef own = facet_->polygon.plane.plane;
   while (!front.is_decided() || !behind.is_decided()) {
-    // A node in the facet's own plane divides front from behind, not the piece.
+    // A node in the facet's own plane divides front from behind, not the part.
     if (!front.is_decided() && nodes_[front.node()].plane == own) {
       front = nodes_[front.node()].positive;
       continue;
@@ -131,39 +373,66 @@ void CellEvaluator::descend(Range piece, LocalPlace front, LocalPlace behind, st
       if (!(at == place)) return at;
       return positive ? node.positive : node.negative;
     };
-    const std::size_t count = piece.end - piece.begin;
-    pool_.reserve(pool_.size() + 2 * (count + 2));
-    const auto polygon = std::span<const Corner>(pool_).subspan(piece.begin, count);
-    const PlaneSplit split =
-        split_signs(scene_.geometry, polygon, node.plane, signs_, *statistics_);
-    if (split == PlaneSplit::Both) {
-      const std::size_t positive_begin = pool_.size();
-      const PolygonCut cut(scene_.geometry, polygon, own, node.plane, signs_);
-      cut.append_part(polygon, signs_, Sign::Positive, pool_);
-      const std::size_t negative_begin = pool_.size();
-      cut.append_part(polygon, signs_, Sign::Negative, pool_);
-      const std::size_t end = pool_.size();
-      const std::uint64_t half = piece.share / 2;
-      descend({positive_begin, negative_begin, half}, follow(front, true), follow(behind, true),
-              next);
-      descend({negative_begin, end, half}, follow(front, false), follow(behind, false), next);
-      pool_.resize(positive_begin);
+    const PlaneSplit side = split(part.polygon, node.plane);
+    if (side == PlaneSplit::Both) {
+      const auto [positive, negative] = halves(part, node.plane);
+      descend(positive, follow(front, true), follow(behind, true), crossings);
+      descend(negative, follow(front, false), follow(behind, false), crossings);
       return;
     }
-    if (split == PlaneSplit::InPlane) {
-      throw Error(ErrorId::InternalError, {"a facet in a plane that is not its own", ""});
-    }
-    const bool positive = split == PlaneSplit::AllPositive;
+    const bool positive = side == PlaneSplit::AllPositive;
     const LocalPlace next_front = follow(front, positive);
     behind = follow(behind, positive);
     front = next_front;
   }
-  const PrimitiveIndex primitive = locals_[order_[next]].primitive;
-  const bool covered = front.membership() != behind.membership();
-  if (covered && primitive < facet_->primitive) return;
-  truth_.change(primitive, {front.membership(), behind.membership()});
-  classify(piece, next + 1);
+  const PrimitiveIndex primitive = local(crossings_[crossings.begin]).primitive;
+  const BothSides sides{front.membership(), behind.membership()};
+  if (is_left_to(primitive, sides)) return;
+  truth_.change(primitive, sides);
+  classify(part, {crossings.begin + 1, crossings.end});
   truth_.change(primitive, {});
+}
+
+void CellEvaluator::decide(PrimitiveIndex primitive, const BothSides& sides) {
+  truth_.change(primitive, sides);
+  decided_.push_back(primitive);
+}
+
+void CellEvaluator::undo_decisions(std::size_t count) {
+  while (decided_.size() > count) {
+    truth_.change(decided_.back(), {});
+    decided_.pop_back();
+  }
+}
+
+void CellEvaluator::emit(const CornerRun& polygon, std::uint64_t share, signed char outward) {
+  const OrientedPlaneRef own = facet_->polygon.plane;
+  if (share == facet_share::whole) {
+    result_->add({own.plane, outward}, own.sense, facet_->facet, share, {});
+    return;
+  }
+  result_->begin({own.plane, outward}, own.sense, facet_->facet, share);
+  for (const SectionCorner& corner : store_.of(polygon)) {
+    result_->add_corner(store_.vertex(corner.vertex), corner.side_plane);
+  }
+}
+
+void CellEvaluator::emit_remainder(const Part& part, const CornerRun& section,
+                                   signed char outward) {
+  const OrientedPlaneRef own = facet_->polygon.plane;
+  const Remainder remainder(part.polygon, section, store_);
+  const std::size_t regions = remainder.is_ring() ? 1 : remainder.loop_count();
+  std::uint64_t share = part.share / 2;
+  for (std::size_t i = 0; i < remainder.loop_count(); ++i) {
+    if (i + 1 < regions) share /= 2;  // the last two regions have the same
+    loop_.clear();
+    remainder.append_loop(i, loop_);
+    const bool is_hole = i >= regions;
+    result_->begin({own.plane, outward}, own.sense, facet_->facet, is_hole ? 0 : share, is_hole);
+    for (const LoopCorner& corner : loop_) {
+      result_->add_corner(store_.vertex(corner.vertex), corner.side_plane);
+    }
+  }
 }
 
 }  // namespace exactcsg

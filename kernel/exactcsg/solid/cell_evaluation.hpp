@@ -7,15 +7,25 @@
 // it by the other primitives' local forms until the pruned tree is constant on both sides. Equal:
 // no boundary. Different: boundary, turned by the side that is In. A piece that facets of several
 // primitives cover is emitted by the lowest of them only.
+//
+// Most primitives leave a facet alone. Of one that is convex and crosses it, the section is taken:
+// if it can be boundary only inside, or only inside differs, the section is the part to go on with.
+// What the last primitive leaves outside is emitted as it is, with its notches and its hole
+// (facet_section.hpp); where several primitives are left, a plane between their sections divides
+// the part. A mesh divides it along the planes of its local form.
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "exactcsg/csg/boolean_operator.hpp"
 #include "exactcsg/csg/maintained_traverse.hpp"
+#include "exactcsg/solid/facet_section.hpp"
 #include "exactcsg/solid/local_form.hpp"
 #include "exactcsg/solid/piece_buffer.hpp"
+#include "exactcsg/solid/polygon.hpp"
 #include "exactcsg/solid/scene.hpp"
 #include "exactcsg/support/progress.hpp"
 
@@ -59,24 +69,61 @@ class CellEvaluator {
                 TierStatistics& statistics);
 
  private:
-  // Corners of the pool, and what share of the facet they bound.
-  struct Range {
-    std::size_t begin;
-    std::size_t end;
+  // A part of the facet at hand, and its share of the facet.
+  struct Part {
+    CornerRun polygon;
     std::uint64_t share;
   };
   struct LocalPrimitive {
     PrimitiveIndex primitive;
-    LocalPlace root;
-    std::size_t first_facet;
-    std::size_t facet_count;
+    bool convex;
+    LocalPlace root;            // of a mesh
+    std::uint32_t first_facet;  // in the cell
+    std::uint32_t facet_count;
   };
+  // A primitive that crosses the part at hand, or has not been looked at.
+  struct Crossing {
+    std::uint32_t place;  // in order_
+    CornerRun section;    // of the part with a convex primitive
+    BothSides inside;     // what such a primitive is in front of the section and behind it
+  };
+  // A row of them.
+  struct Crossings {
+    std::size_t begin;
+    std::size_t end;
+  };
+  enum class Outcome : unsigned char { NoBoundary, Boundary, Undecided };
+  enum class Relation : unsigned char { Outside, Inside, Across };
 
   void build_local_forms(std::span<const CellFacet> facets);
-  void order_primitives_for(const CellFacet& facet, std::span<const CellFacet> facets);
-  void classify(Range piece, std::size_t next);
+  LocalPlace local_form_of_mesh(std::span<const CellFacet> facets);
+  void order_primitives_for(const CellFacet& facet);
   void join_pieces(const CellFacet& facet, const PieceCollector::Mark& before);
-  void descend(Range piece, LocalPlace front, LocalPlace behind, std::size_t next);
+  std::optional<signed char> outward_sense() const;
+  void classify(Part part, Crossings candidates);
+  bool is_no_boundary_if(PrimitiveIndex primitive, const BothSides& sides);
+  Outcome decide_uncrossed(Part& part, Crossings& candidates);
+  Relation relate(const CornerRun& polygon, const LocalPrimitive& local, Crossing& crossing);
+  void divide(const Part& part, Crossings crossings);
+  void classify_half(const Part& half, Crossings crossings, PlaneRef plane, PlaneSplit other_side);
+  void emit_on_either_side(const Part& part, const Crossing& crossing);
+  PlaneRef choose_plane(Crossings crossings);
+  void descend(Part part, LocalPlace front, LocalPlace behind, Crossings crossings);
+  std::array<Part, 2> halves(const Part& part, PlaneRef plane);
+
+  const LocalPrimitive& local(const Crossing& crossing) const {
+    return locals_[order_[crossing.place]];
+  }
+  bool is_coplanar(const Crossing& crossing) const { return crossing.place < coplanar_count_; }
+  // A lower primitive that covers a part in the same plane emits it.
+  bool is_left_to(PrimitiveIndex primitive, const BothSides& sides) const {
+    return sides.front != sides.behind && primitive < facet_->primitive;
+  }
+  PlaneSplit split(const CornerRun& polygon, PlaneRef plane);
+  void undo_decisions(std::size_t count);
+  void decide(PrimitiveIndex primitive, const BothSides& sides);
+  void emit(const CornerRun& polygon, std::uint64_t share, signed char outward);
+  void emit_remainder(const Part& part, const CornerRun& section, signed char outward);
 
   const Scene& scene_;
   Progress* progress_;
@@ -84,12 +131,18 @@ class CellEvaluator {
   csg::MaintainedTraverse<PrimitiveIndex, csg::BooleanOperator, BothSides, CombineSides,
                           AbsorbsSides>
       truth_;
+  std::vector<PrimitiveIndex> decided_;  // in the order in which they were
   std::vector<LocalNode> nodes_;
   std::vector<LocalPrimitive> locals_;
   std::vector<std::uint32_t> order_;  // indices into locals_, those coplanar with the facet first
   std::size_t coplanar_count_ = 0;
-  std::vector<Corner> pool_;
+  SectionStore store_;
+  std::vector<Crossing> crossings_;
+  std::vector<OrientedPlaneRef> planes_;   // of the cell's facets
+  std::vector<OrientedPlaneRef> cutting_;  // of them, those that may cut the part at hand
   std::vector<Sign> signs_;
+  std::vector<Sign> first_signs_;
+  std::vector<LoopCorner> loop_;
   const CellFacet* facet_ = nullptr;
   PieceCollector* result_ = nullptr;
   TierStatistics* statistics_ = nullptr;

@@ -76,18 +76,27 @@ PieceBuffer compacted(const PieceBuffer& buffer) {
 
 void PieceCollector::add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
                          std::uint64_t share, const CornerView& polygon, bool isolated) {
-  BoundaryPiece piece{outward, corner_sense, 0, 0, facet, share, isolated};
-  if (share != facet_share::whole) {
-    piece.first_corner = static_cast<std::uint32_t>(buffer_.corners.size());
-    piece.corner_count = static_cast<std::uint32_t>(polygon.size());
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vertex vertex = polygon.vertex(i);
-      const std::uint32_t number =
-          vertex.is_point ? static_cast<std::uint32_t>(vertex.point) : place_of(vertex);
-      buffer_.corners.push_back({polygon.side_plane(i), number, vertex.is_point});
-    }
+  if (share == facet_share::whole) {
+    buffer_.pieces.push_back({outward, corner_sense, 0, 0, facet, share, isolated});
+    return;
   }
-  buffer_.pieces.push_back(piece);
+  begin(outward, corner_sense, facet, share);
+  polygon.for_each_vertex(
+      [&](std::size_t i, const Vertex& vertex) { add_corner(vertex, polygon.side_plane(i)); });
+}
+
+void PieceCollector::begin(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
+                           std::uint64_t share, bool is_hole) {
+  buffer_.pieces.push_back({outward, corner_sense,
+                            static_cast<std::uint32_t>(buffer_.corners.size()), 0, facet, share,
+                            false, is_hole});
+}
+
+void PieceCollector::add_corner(const Vertex& vertex, PlaneRef side_plane) {
+  const std::uint32_t number =
+      vertex.is_point ? static_cast<std::uint32_t>(vertex.point) : place_of(vertex);
+  buffer_.corners.push_back({side_plane, number, vertex.is_point});
+  ++buffer_.pieces.back().corner_count;
 }
 
 PieceCollector::Mark PieceCollector::mark() const {

@@ -33,6 +33,8 @@ struct BoundaryPiece {
   // A whole facet of a primitive that does not meet itself, inside a cell in which nothing else is
   // boundary.
   bool isolated = false;
+  // The corners bound a hole in the piece before this one, clockwise seen from its front.
+  bool is_hole = false;
 };
 
 struct PieceCorner {
@@ -66,6 +68,11 @@ class PieceCollector {
   // The corners are stored unless the share is that of a whole facet. COST: O(1) a corner
   void add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
            std::uint64_t share, const CornerView& polygon, bool isolated = false);
+  // The same without corners, which add_corner adds to the last piece. A piece with corners of its
+  // own need not be convex. REQUIRES share != facet_share::whole
+  void begin(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
+             std::uint64_t share, bool is_hole = false);
+  void add_corner(const Vertex& vertex, PlaneRef side_plane);
 
   struct Mark {
     std::size_t pieces;
