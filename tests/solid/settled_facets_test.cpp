@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Facets that bypass merging against the same solids written so that none does: each body in parts,
+// Facets and edges that bypass merging against the same solids written so that none does: each body in parts,
 // whose facets share planes. LAW boundary.1. On a small grid every way of touching occurs.
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ class SettledFacetsOnAGrid : public ::testing::TestWithParam<int> {};
 TEST_P(SettledFacetsOnAGrid, AreTheBoundaryThatMergingFinds) {
   std::mt19937 random(2026);
   std::uniform_int_distribution<int> choice(0, 3);
-  for (int round = 0; round < 150; ++round) {
+  for (int round = 0; round < 300; ++round) {
     Solid direct;
     Solid merged;
     for (int i = 0; i < 4; ++i) {

@@ -95,6 +95,11 @@ struct Vertex {
   double coordinate(Axis axis) const { return axis == Axis::X ? x : axis == Axis::Y ? y : z; }
 };
 
+// The vertex is the meeting point of this plane and two others.
+inline bool is_made_by(const Vertex& v, PlaneRef plane) {
+  return !v.is_point && (v.planes[0] == plane || v.planes[1] == plane || v.planes[2] == plane);
+}
+
 // |true - stored| <= error for each coordinate; error 0 says that the doubles are the coordinates.
 // An error of infinity: the coordinates are outside the doubles' range, the stored ones mean
 // nothing.
@@ -160,7 +165,7 @@ class Geometry {
   Sign side(const Vertex& v, PlaneRef plane, TierStatistics& statistics) const {
     // A meeting point lies on its own planes. (Of points the incidences are looked up later: they
     // cost more than the filter.)
-    if (!v.is_point && (v.planes[0] == plane || v.planes[1] == plane || v.planes[2] == plane)) {
+    if (is_made_by(v, plane)) {
       statistics.record(Tier::Symbolic, true);
       return Sign::Zero;
     }

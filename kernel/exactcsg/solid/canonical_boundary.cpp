@@ -17,6 +17,7 @@
 #include "exactcsg/solid/face_loops.hpp"
 #include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/line_interning.hpp"
+#include "exactcsg/solid/line_sum.hpp"
 #include "exactcsg/solid/nearest_crossing.hpp"
 #include "exactcsg/solid/per_thread.hpp"
 #include "exactcsg/solid/settled_facets.hpp"
@@ -132,6 +133,17 @@ struct SettledFace {
   bool all_sides_settled = true;
 };
 
+// An edge of the result, if both ends are vertices: there pieces of two planes end, and none goes
+// on.
+struct SimpleEdge {
+  OrientedPlaneRef left;  // walked from `from` to `to`
+  OrientedPlaneRef right;
+  PieceNumber left_piece;
+  PieceNumber right_piece;
+  VertexNumber from;
+  VertexNumber to;
+};
+
 // A corner of a settled face, and whether the side from there to the next one is settled. The face
 // is on the left, seen from outside.
 struct SettledSide {
@@ -202,9 +214,11 @@ class Merger {
   }
 
  private:
-  // Sets lines_, content_ and segments_.
+  // Sets lines_, content_, segments_, simple_edges_ and is_vertex_ of their ends.
   void sum_edges() {
-    const std::vector<PieceEdge> edges = cancel_equal_edges();
+    is_vertex_.assign(vertices_.size(), 0);
+    mark_settled_ends();
+    const std::vector<PieceEdge> edges = edges_to_sum();
     check();
     const std::vector<LineNumber> line_of_edge = number_lines(edges);
     check();
@@ -237,7 +251,8 @@ class Merger {
     std::vector<SettledEdge>& settled_edges;
   };
 
-  // Sets vertices_, edges_, settled_edges_, settled_faces_, settled_sides_ and primitive_of_piece_.
+  // Sets vertices_, edges_, settled_edges_, settled_faces_, settled_sides_, and of pieces
+  // primitive_of_piece_ and in_general_position_.
   void number_vertices(std::vector<PieceBuffer> buffers) {
     const PieceRow pieces(buffers);
     InternedVertices interned = intern(geometry_, vertices_of(pieces), statistics_, threads_);
@@ -249,6 +264,7 @@ class Merger {
     settled_faces_.resize(firsts.back().settled_faces);
     settled_sides_.resize(firsts.back().settled_sides);
     primitive_of_piece_.resize(pieces.size());
+    in_general_position_.resize(pieces.size());
     std::vector<std::vector<SettledEdge>> settled_edges(parts.count());
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       check();
@@ -266,6 +282,7 @@ class Merger {
                           }
                         }
                         primitive_of_piece_[number] = whole_primitive_of(piece);
+                        in_general_position_[number] = piece.in_general_position ? 1 : 0;
                         if (piece.is_hole) faces_.unite(number - 1, number);
                       });
     });
@@ -334,25 +351,32 @@ class Merger {
     }
   }
 
-  // Meeting points in the order of the buffers, and the points that occur.
+  // Meeting points in the order of the buffers, and the points that occur. In general position, a
+  // cell shares with others only what its walls make.
   CornerVertices vertices_of(const PieceRow& pieces) const {
     CornerVertices result;
-    result.has_point.assign(geometry_.point_count(), 0);
+    result.point_occurs.assign(geometry_.point_count(), Occurrence::None);
     result.meeting_points.assign(pieces.meeting_point_count(), nullptr);
+    result.meeting_point_occurs.assign(pieces.meeting_point_count(), Occurrence::None);
     const auto add = [&](const PieceBuffer& buffer, std::size_t first_meeting_point,
                          const BoundaryPiece& piece, PieceNumber) {
+      const Occurrence occurrence =
+          piece.in_general_position ? Occurrence::Alone : Occurrence::Some;
       if (piece.share == facet_share::whole) {
         for (const PointCorner& corner : corners_of_facet(piece)) {
-          set_mark(result.has_point[static_cast<std::uint32_t>(corner.point)]);
+          note(occurrence, result.point_occurs[static_cast<std::uint32_t>(corner.point)]);
         }
         return;
       }
       for (const PieceCorner& corner : buffer.corners_of(piece)) {
         if (corner.is_point) {
-          set_mark(result.has_point[corner.vertex]);
+          note(occurrence, result.point_occurs[corner.vertex]);
         } else {
-          std::atomic_ref(result.meeting_points[first_meeting_point + corner.vertex])
-              .store(&buffer.meeting_points[corner.vertex], std::memory_order_relaxed);
+          const std::size_t place = first_meeting_point + corner.vertex;
+          const Vertex& vertex = buffer.meeting_points[corner.vertex];
+          note(is_on_wall(vertex) ? Occurrence::Some : occurrence,
+               result.meeting_point_occurs[place]);
+          std::atomic_ref(result.meeting_points[place]).store(&vertex, std::memory_order_relaxed);
         }
       }
     };
@@ -360,6 +384,20 @@ class Merger {
         threads_, Parts(pieces.size()),
         [&](std::size_t, std::size_t begin, std::size_t end) { pieces.for_each(begin, end, add); });
     return result;
+  }
+
+  static bool is_on_wall(const Vertex& meeting_point) {
+    return std::ranges::any_of(meeting_point.planes,
+                               [](PlaneRef plane) { return plane.is_wall(); });
+  }
+
+  // The greatest of all that is noted; several threads may do so at once.
+  static void note(Occurrence occurrence, Occurrence& noted) {
+    const std::atomic_ref shared(noted);
+    Occurrence known = shared.load(std::memory_order_relaxed);
+    while (known < occurrence &&
+           !shared.compare_exchange_weak(known, occurrence, std::memory_order_relaxed)) {
+    }
   }
 
   // The edge from corner i to the next.
@@ -393,9 +431,10 @@ class Merger {
       // The facet on the other side walks it from `to` to `from`.
       if (from > to) continue;
       const auto [first, second] = std::minmax(piece.plane.plane, side_plane);
-      const bool isolated = settled_.is_isolated(first) || settled_.is_isolated(second);
+      const bool may_be_touched =
+          !settled_.is_in_general_position(first) && !settled_.is_in_general_position(second);
       places.settled_edges.push_back(
-          {first, second, from, to, whole_primitive_of(piece), !isolated});
+          {first, second, from, to, whole_primitive_of(piece), may_be_touched});
     }
     if (piece.corner_sense != piece.plane.sense) {
       // Corners and the sides between them, backwards from the same corner.
@@ -416,19 +455,21 @@ class Merger {
     return scene_.primitives[primitive].meets_itself ? none : primitive;
   }
 
-  // Most seams have the same two ends on both sides: they cancel without a look at their line.
-  std::vector<PieceEdge> cancel_equal_edges() {
-    struct Keyed {
-      std::uint64_t ends;
-      std::uint32_t edge;
-    };
-    std::vector<Keyed> order(edges_.size());
+  // An edge of a piece by its two ends.
+  struct EdgeOfEnds {
+    std::uint64_t ends;
+    std::uint32_t edge;
+  };
+
+  // Edges with the same two ends are neighbours, and of these, edges of one oriented plane.
+  std::vector<EdgeOfEnds> edges_by_ends() const {
+    std::vector<EdgeOfEnds> order(edges_.size());
     in_parallel_parts(threads_, edges_.size(), [&](std::size_t i) {
       const auto [low, high] = std::minmax(edges_[i].from, edges_[i].to);
       order[i] = {(static_cast<std::uint64_t>(low) << 32U) | high, static_cast<std::uint32_t>(i)};
     });
-    const auto lower_end = [](const Keyed& keyed) { return keyed.ends >> 32U; };
-    const auto less = [&](const Keyed& a, const Keyed& b) {
+    const auto lower_end = [](const EdgeOfEnds& edge) { return edge.ends >> 32U; };
+    const auto less = [&](const EdgeOfEnds& a, const EdgeOfEnds& b) {
       if (a.ends != b.ends) return a.ends < b.ends;
       const PieceEdge& p = edges_[a.edge];
       const PieceEdge& q = edges_[b.edge];
@@ -437,37 +478,103 @@ class Merger {
       return a.edge < b.edge;
     };
     sort_in_buckets(order, vertices_.size(), lower_end, less, threads_);
+    return order;
+  }
+
+  // Of most edges of pieces nothing needs to be summed up along lines: seams, which have the same
+  // two ends on both sides, cancel, and where pieces in two planes have one edge in common, that is
+  // an edge of the result. The others are returned.
+  std::vector<PieceEdge> edges_to_sum() {
+    const std::vector<EdgeOfEnds> order = edges_by_ends();
     const Parts parts(order.size(),
                       [&](std::size_t i) { return order[i].ends != order[i - 1].ends; });
-    // Those that are left move to the front of their part.
-    std::vector<std::size_t> first_left(parts.count() + 1, 0);
+    std::vector<std::vector<PieceEdge>> left(parts.count());
+    std::vector<std::vector<SimpleEdge>> simple(parts.count());
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       check();
-      std::size_t left = begin;
-      for (std::size_t i = begin; i < end; ++i) {
-        const PieceEdge& edge = edges_[order[i].edge];
-        if (i + 1 < end && order[i + 1].ends == order[i].ends) {
-          const PieceEdge& other = edges_[order[i + 1].edge];
-          if (other.plane == edge.plane) {
-            if (other.from == edge.from) broken("two pieces of boundary that overlap");
-            faces_.unite(edge.piece, other.piece);
-            ++i;
-            continue;
-          }
-        }
-        order[left++] = order[i];
-      }
-      first_left[part + 1] = left - begin;
-    });
-    std::partial_sum(first_left.begin(), first_left.end(), first_left.begin());
-    std::vector<PieceEdge> left(first_left.back());
-    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t) {
-      for (std::size_t i = first_left[part]; i < first_left[part + 1]; ++i) {
-        left[i] = edges_[order[begin + (i - first_left[part])].edge];
+      for (std::size_t i = begin; i < end;) {
+        std::size_t group_end = i + 1;
+        while (group_end < end && order[group_end].ends == order[i].ends) ++group_end;
+        sort_out(std::span(order).subspan(i, group_end - i), left[part], simple[part]);
+        i = group_end;
       }
     });
     give_up(edges_);
-    return left;
+    mark_ends(simple);
+    in_parallel(threads_, simple.size(), [&](std::size_t part) {
+      std::erase_if(simple[part], [&](const SimpleEdge& edge) {
+        if (is_vertex_[edge.from] && is_vertex_[edge.to]) return false;
+        left[part].push_back({edge.left, edge.right.plane, edge.from, edge.to, edge.left_piece});
+        left[part].push_back({edge.right, edge.left.plane, edge.to, edge.from, edge.right_piece});
+        return true;
+      });
+    });
+    simple_edges_ = joined(threads_, std::move(simple));
+    return joined(threads_, std::move(left));
+  }
+
+  // Of edges with the same two ends.
+  void sort_out(std::span<const EdgeOfEnds> group, std::vector<PieceEdge>& left,
+                std::vector<SimpleEdge>& simple) {
+    if (group.size() == 2) {
+      const PieceEdge& a = edges_[group[0].edge];
+      const PieceEdge& b = edges_[group[1].edge];
+      if (is_simple(a, b)) {
+        simple.push_back({a.plane, b.plane, a.piece, b.piece, a.from, a.to});
+        return;
+      }
+    }
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const PieceEdge& edge = edges_[group[i].edge];
+      if (i + 1 < group.size()) {
+        const PieceEdge& other = edges_[group[i + 1].edge];
+        if (other.plane == edge.plane) {
+          if (other.from == edge.from) broken("two pieces of boundary that overlap");
+          faces_.unite(edge.piece, other.piece);
+          ++i;
+          continue;
+        }
+      }
+      left.push_back(edge);
+    }
+  }
+
+  // Of two edges with the same ends. In general position no other edge is on this stretch of the
+  // line: the surface turns from the one plane to the other here.
+  bool is_simple(const PieceEdge& a, const PieceEdge& b) const {
+    return a.plane.plane == b.side_plane && b.plane.plane == a.side_plane && a.from == b.to &&
+           in_general_position_[a.piece] && in_general_position_[b.piece];
+  }
+
+  // The facets on both sides have edges of other directions there.
+  void mark_settled_ends() {
+    in_parallel_parts(threads_, settled_edges_.size(), [&](std::size_t i) {
+      set_mark(is_vertex_[settled_edges_[i].from]);
+      set_mark(is_vertex_[settled_edges_[i].to]);
+    });
+  }
+
+  // Two lines are different if other planes meet in them, in general position: an end of two of
+  // them is a vertex.
+  void mark_ends(const std::vector<std::vector<SimpleEdge>>& simple) {
+    constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
+    std::vector<std::uint64_t> some_line(vertices_.size(), unknown);
+    in_parallel(threads_, simple.size(), [&](std::size_t part) {
+      for (const SimpleEdge& edge : simple[part]) {
+        const auto [first, second] =
+            std::minmax({edge.left.plane.table_index(), edge.right.plane.table_index()});
+        const std::uint64_t line = std::uint64_t{first} << 32U | second;
+        for (const VertexNumber vertex : {edge.from, edge.to}) {
+          std::uint64_t known = unknown;
+          // Whichever line comes first, the second one marks the vertex.
+          if (!std::atomic_ref(some_line[vertex])
+                   .compare_exchange_strong(known, line, std::memory_order_relaxed) &&
+              known != line) {
+            set_mark(is_vertex_[vertex]);
+          }
+        }
+      }
+    });
   }
 
   std::vector<LineNumber> number_lines(const std::vector<PieceEdge>& edges) {
@@ -512,6 +619,8 @@ class Merger {
     std::partial_sum(first_sample.begin(), first_sample.end(), first_sample.begin());
     std::vector<LineSample> samples(first_sample.back());
     std::vector<std::uint32_t> sample_of_edge(edges.size());
+    const std::vector<unsigned char> touched = ends_beside_chance(edges);
+    std::vector<unsigned char> may_coincide(samples.size(), 0);
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       std::size_t next = first_sample[part];
       for (std::size_t i = begin; i < end; ++i) {
@@ -521,17 +630,53 @@ class Merger {
                              &vertices_[edge.to]};
         }
         sample_of_edge[order[i].edge] = static_cast<std::uint32_t>(next - 1);
+        const PieceEdge& edge = edges[order[i].edge];
+        if (touched[edge.from] || touched[edge.to]) set_mark(may_coincide[next - 1]);
       }
     });
     check();
-    InternedLines interned = intern(geometry_, samples, statistics_, threads_);
-    lines_ = std::move(interned.distinct);
-    // The samples point into vertices_, which may grow.
-    for (LineSample& line : lines_) line.from = line.to = nullptr;
+    const std::vector<LineNumber> number = intern_lines(samples, may_coincide);
     std::vector<LineNumber> result(edges.size());
     in_parallel_parts(threads_, edges.size(),
-                      [&](std::size_t i) { result[i] = interned.number[sample_of_edge[i]]; });
+                      [&](std::size_t i) { result[i] = number[sample_of_edge[i]]; });
     return result;
+  }
+
+  // By vertex: where edges end that are not in general position. A cell may have cut along a line
+  // in other planes than its neighbour.
+  std::vector<unsigned char> ends_beside_chance(const std::vector<PieceEdge>& edges) const {
+    std::vector<unsigned char> result(vertices_.size(), 0);
+    in_parallel_parts(threads_, edges.size(), [&](std::size_t i) {
+      if (in_general_position_[edges[i].piece]) return;
+      set_mark(result[edges[i].from]);
+      set_mark(result[edges[i].to]);
+    });
+    return result;
+  }
+
+  // Sets lines_. Lines of different planes that do not coincide with others in general position get
+  // a number of their own.
+  std::vector<LineNumber> intern_lines(const std::vector<LineSample>& samples,
+                                       const std::vector<unsigned char>& may_coincide) {
+    std::vector<LineSample> some;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (may_coincide[i]) some.push_back(samples[i]);
+    }
+    InternedLines interned = intern(geometry_, some, statistics_, threads_);
+    lines_ = std::move(interned.distinct);
+    std::vector<LineNumber> number(samples.size());
+    auto next_of_some = interned.number.begin();
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (may_coincide[i]) {
+        number[i] = *next_of_some++;
+      } else {
+        number[i] = static_cast<LineNumber>(lines_.size());
+        lines_.push_back(samples[i]);
+      }
+    }
+    // The samples point into vertices_, which may grow.
+    for (LineSample& line : lines_) line.from = line.to = nullptr;
+    return number;
   }
 
   // Vertices of one line in the order of their position on it, from either end.
@@ -565,13 +710,6 @@ class Merger {
     return order;
   }
 
-  struct Event {
-    std::uint32_t rank;
-    bool opens;
-    bool forward;
-    PieceNumber piece;
-  };
-
   void add_up(const std::vector<PieceEdge>& edges, const std::vector<LineNumber>& line_of_edge) {
     const std::vector<std::uint32_t> order = edges_by_line(edges, line_of_edge);
     content_.resize(lines_.size());
@@ -585,7 +723,7 @@ class Merger {
           segments[part].reserve(part_end - part_begin);
           std::vector<std::uint32_t>& rank = ranks();
           std::vector<VertexNumber> stations;
-          std::vector<Event> events;
+          std::vector<LineEvent> events;
           for (std::size_t begin = part_begin; begin < part_end;) {
             const LineNumber line = line_at(begin);
             std::size_t end = begin;
@@ -631,7 +769,7 @@ class Merger {
 
   void add_up_on_plane(const std::vector<PieceEdge>& edges, std::span<const std::uint32_t> group,
                        const std::vector<VertexNumber>& stations,
-                       const std::vector<std::uint32_t>& rank, std::vector<Event>& events,
+                       const std::vector<std::uint32_t>& rank, std::vector<LineEvent>& events,
                        std::vector<Segment>& result) {
     if (group.size() == 1) {
       const PieceEdge& edge = edges[group[0]];
@@ -640,42 +778,23 @@ class Merger {
     }
     events.clear();
     for (const std::uint32_t i : group) {
-      const PieceEdge& edge = edges[i];
-      const bool forward = rank[edge.from] < rank[edge.to];
-      const auto [low, high] = std::minmax(rank[edge.from], rank[edge.to]);
-      events.push_back({low, true, forward, edge.piece});
-      events.push_back({high, false, forward, edge.piece});
+      add_events(rank[edges[i].from], rank[edges[i].to], edges[i].piece, events);
     }
-    std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
-      if (a.rank != b.rank) return a.rank < b.rank;
-      return a.opens < b.opens;  // close first: pieces may follow one another
-    });
-    // The pieces that are left (forward) and right of the present stretch of the line.
-    std::optional<PieceNumber> left;
-    std::optional<PieceNumber> right;
-    for (std::size_t i = 0; i < events.size();) {
-      const std::uint32_t here = events[i].rank;
-      for (; i < events.size() && events[i].rank == here; ++i) {
-        std::optional<PieceNumber>& side = events[i].forward ? left : right;
-        if (events[i].opens == side.has_value()) broken("two pieces of boundary that overlap");
-        side = events[i].opens ? std::optional(events[i].piece) : std::nullopt;
-      }
-      if (i == events.size()) break;
-      const VertexNumber from = stations[here];
-      const VertexNumber to = stations[events[i].rank];
-      if (left && right) {
-        faces_.unite(*left, *right);
-      } else if (left) {
-        result.push_back({edges[group[0]].plane, from, to, *left});
-      } else if (right) {
-        result.push_back({edges[group[0]].plane, to, from, *right});
-      }
-    }
+    const OrientedPlaneRef plane = edges[group[0]].plane;
+    sum_along_line(events,
+                   [&](const auto& left, const auto& right, std::uint32_t low, std::uint32_t high) {
+                     if (left && right) {
+                       faces_.unite(*left, *right);
+                     } else if (left) {
+                       result.push_back({plane, stations[low], stations[high], *left});
+                     } else {
+                       result.push_back({plane, stations[high], stations[low], *right});
+                     }
+                   });
   }
 
   // A vertex is where segments of two or more lines end.
   void mark_vertices() {
-    is_vertex_.assign(vertices_.size(), 0);
     std::vector<LineNumber> some_line(vertices_.size(), none);
     const Parts parts(content_.size());
     std::vector<std::vector<VertexNumber>> stations(parts.count());
@@ -708,11 +827,6 @@ class Merger {
       }
     });
     stations_ = joined(threads_, std::move(stations));
-    // The facets on both sides have edges of other directions there.
-    in_parallel_parts(threads_, settled_edges_.size(), [&](std::size_t i) {
-      set_mark(is_vertex_[settled_edges_[i].from]);
-      set_mark(is_vertex_[settled_edges_[i].to]);
-    });
   }
 
   std::span<const Segment> segments_of(LineNumber line) const {
@@ -771,6 +885,7 @@ class Merger {
   void add_spans(LineNumber line, std::vector<std::uint32_t>& rank, std::vector<Span>& result) {
     const auto first = static_cast<std::ptrdiff_t>(result.size());
     for_each_run(line, rank, [&](const Run& run) {
+      if (run.in_general_position) return;
       const auto [low, high] = std::minmax(run.from, run.to);
       result.push_back({line, low, high, run.primitive});
     });
@@ -800,7 +915,8 @@ class Merger {
     const Segment& owner;
     VertexNumber from;
     VertexNumber to;
-    std::uint32_t primitive;  // of all its segments, or none
+    std::uint32_t primitive;   // of all its segments, or none
+    bool in_general_position;  // all of it
   };
 
   // visit(run)
@@ -826,8 +942,10 @@ class Merger {
     bool forward = true;
     const Segment* owner = nullptr;
     std::uint32_t primitive = none;
+    bool general = true;
     for (const Segment& segment : segments) {
       const std::uint32_t primitive_here = primitive_of_piece_[segment.piece];
+      const bool general_here = in_general_position_[segment.piece] != 0;
       const auto [low, high] = std::minmax(rank[segment.from], rank[segment.to]);
       const bool goes_forward = rank[segment.from] < rank[segment.to];
       if (is_vertex_[stations[low]]) {
@@ -836,18 +954,21 @@ class Merger {
         forward = goes_forward;
         owner = &segment;
         primitive = primitive_here;
+        general = general_here;
       }
       if (primitive != primitive_here) primitive = none;
+      general = general && general_here;
       if (start == none || forward != goes_forward)
         broken("an edge that ends where there is no vertex");
       for (std::uint32_t r = low + 1; r <= high; ++r) {
         if (!is_vertex_[stations[r]]) continue;
         const VertexNumber a = stations[start];
         const VertexNumber b = stations[r];
-        visit(Run{*owner, forward ? a : b, forward ? b : a, primitive});
+        visit(Run{*owner, forward ? a : b, forward ? b : a, primitive, general});
         start = r;
         owner = &segment;
         primitive = primitive_here;
+        general = general_here;
       }
       // Ends in a vertex: the run is over unless the next segment goes on from here.
       if (start == high) start = none;
@@ -1099,8 +1220,10 @@ class Merger {
   // Gives up what is known of lines: their memory is wanted for the result.
   FaceParts face_parts() {
     const Parts lines(content_.size());
+    const Parts simple(simple_edges_.size());
     const Parts settled(settled_faces_.size());
-    std::vector<std::vector<FaceEdge>> edges(lines.count() + settled.count());
+    const std::size_t first_settled = lines.count() + simple.count();
+    std::vector<std::vector<FaceEdge>> edges(first_settled + settled.count());
     std::vector<std::vector<SingleFace>> singles(settled.count());
     in_parallel(threads_, lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
       std::vector<std::uint32_t>& rank = ranks();
@@ -1116,8 +1239,18 @@ class Merger {
     give_up(stations_);
     give_up(lines_);
     give_up(primitive_of_piece_);
+    give_up(in_general_position_);
+    in_parallel(threads_, simple, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      std::vector<FaceEdge>& result = edges[lines.count() + part];
+      result.reserve(2 * (end - begin));
+      for (std::size_t i = begin; i < end; ++i) {
+        const SimpleEdge& edge = simple_edges_[i];
+        result.push_back({edge.left, faces_.find(edge.left_piece), edge.from, edge.to});
+        result.push_back({edge.right, faces_.find(edge.right_piece), edge.to, edge.from});
+      }
+    });
     in_parallel(threads_, settled, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      add_single_faces(begin, end, edges[lines.count() + part], singles[part]);
+      add_single_faces(begin, end, edges[first_settled + part], singles[part]);
     });
     give_up(settled_faces_);
     give_up(settled_sides_);
@@ -1156,16 +1289,26 @@ class Merger {
       return BoundaryEdge{low, high};
     };
     const Parts on_lines(faces.count_on_lines);
+    const Parts simple(simple_edges_.size());
     const Parts settled(settled_edges_.size());
-    std::vector<std::vector<BoundaryEdge>> edges(on_lines.count() + settled.count());
+    const std::size_t first_settled = on_lines.count() + simple.count();
+    std::vector<std::vector<BoundaryEdge>> edges(first_settled + settled.count());
     in_parallel(threads_, on_lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
       edges[part].reserve(end - begin);
       for (std::size_t i = begin; i < end; ++i) {
         edges[part].push_back(edge_between(faces.edges[i].from, faces.edges[i].to));
       }
     });
-    in_parallel(threads_, settled, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    in_parallel(threads_, simple, [&](std::size_t part, std::size_t begin, std::size_t end) {
       std::vector<BoundaryEdge>& result = edges[on_lines.count() + part];
+      result.reserve(end - begin);
+      for (std::size_t i = begin; i < end; ++i) {
+        result.push_back(edge_between(simple_edges_[i].from, simple_edges_[i].to));
+      }
+    });
+    give_up(simple_edges_);
+    in_parallel(threads_, settled, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      std::vector<BoundaryEdge>& result = edges[first_settled + part];
       result.reserve(end - begin);
       for (std::size_t i = begin; i < end; ++i) {
         for_each_part(
@@ -1263,12 +1406,14 @@ class Merger {
   std::uint64_t statistics_pieces_ = 0;
   const SettledFacets settled_;
   std::vector<PieceEdge> edges_;
+  std::vector<SimpleEdge> simple_edges_;
   std::vector<SettledEdge> settled_edges_;
   std::vector<SettledFace> settled_faces_;
   std::vector<SettledSide> settled_sides_;
   std::map<std::array<VertexNumber, 2>, std::vector<VertexNumber>> cuts_;  // of settled edges
   std::map<LineNumber, std::vector<VertexNumber>> touching_;  // where other edges touch a line
   std::vector<std::uint32_t> primitive_of_piece_;
+  std::vector<unsigned char> in_general_position_;  // by piece
   std::vector<Vertex> vertices_;
   DisjointSets faces_;
   std::vector<LineSample> lines_;

@@ -65,10 +65,11 @@ void CellEvaluator::order_primitives_for(const CellFacet& facet) {
   coplanar_count_ = static_cast<std::size_t>(rest - order_.begin());
 }
 
-void CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree& tree,
+bool CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree& tree,
                              PieceCollector& result, TierStatistics& statistics) {
   result_ = &result;
   statistics_ = &statistics;
+  in_general_position_ = true;
   build_local_forms(facets);
   truth_.assign(tree, {});
   store_.clear();
@@ -76,6 +77,7 @@ void CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree
     if (progress_ != nullptr) progress_->check();
     facet_ = &facet;
     order_primitives_for(facet);
+    if (coplanar_count_ > 0) in_general_position_ = false;
     const bool outward_front = facet.polygon.plane.sense > 0;
     truth_.change(facet.primitive, outward_front ? BothSides{Membership::Out, Membership::In}
                                                  : BothSides{Membership::In, Membership::Out});
@@ -91,6 +93,7 @@ void CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree
     store_.corners.clear();
     truth_.change(facet.primitive, {});
   }
+  return in_general_position_;
 }
 
 // Other primitives' planes may cut a facet that all of them leave alone in the end.
@@ -242,7 +245,9 @@ PlaneSplit CellEvaluator::split(const CornerRun& polygon, PlaneRef plane) {
   bool negative = false;
   bool positive = false;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    signs_[i] = scene_.geometry.side(store_.vertex(corners[i]), plane, *statistics_);
+    const Vertex& vertex = store_.vertex(corners[i]);
+    signs_[i] = scene_.geometry.side(vertex, plane, *statistics_);
+    if (signs_[i] == Sign::Zero && !is_made_by(vertex, plane)) in_general_position_ = false;
     negative |= signs_[i] == Sign::Negative;
     positive |= signs_[i] == Sign::Positive;
   }

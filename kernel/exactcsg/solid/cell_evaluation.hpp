@@ -64,8 +64,9 @@ class CellEvaluator {
   CellEvaluator(const Scene& scene, Progress* progress);
 
   // REQUIRES every primitive of the tree has facets in the cell, and every facet's primitive occurs
-  // in the tree.
-  void evaluate(std::span<const CellFacet> facets, const PrunedTree& tree, PieceCollector& result,
+  // in the tree. Whether the cell is in general position, as far as that does not depend on walls
+  // (LAW pieces.3).
+  bool evaluate(std::span<const CellFacet> facets, const PrunedTree& tree, PieceCollector& result,
                 TierStatistics& statistics);
 
  private:
@@ -144,6 +145,7 @@ class CellEvaluator {
   std::vector<Sign> first_signs_;
   std::vector<LoopCorner> loop_;
   const CellFacet* facet_ = nullptr;
+  bool in_general_position_ = true;
   PieceCollector* result_ = nullptr;
   TierStatistics* statistics_ = nullptr;
 };

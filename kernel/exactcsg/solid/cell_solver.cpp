@@ -2,6 +2,8 @@
 #include "exactcsg/solid/cell_solver.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 
 #include "exactcsg/csg/membership.hpp"
@@ -41,13 +43,15 @@ CellSolver::Solution CellSolver::solve(const CellTask& cell, TierStatistics& sta
   Worker& worker = workers_.local();
   worker.collector.discard();
   const bool classified = !decomposition_.is_one_primitive(cell);
+  bool in_general_position = true;
   if (classified) {
     decomposition_.collect_facets(cell, worker.facets);
-    worker.evaluator.evaluate(worker.facets, cell.tree, worker.collector, statistics);
+    in_general_position =
+        worker.evaluator.evaluate(worker.facets, cell.tree, worker.collector, statistics);
   } else {
     emit_primitive(cell, worker.collector);
   }
-  return {worker.collector.take(), classified};
+  return {worker.collector.take(in_general_position && !touches_walls(cell)), classified};
 }
 
 // The only primitive of the cell: its facets are boundary as they are, or not at all.
@@ -62,12 +66,10 @@ void CellSolver::emit_primitive(const CellTask& cell, PieceCollector& result) co
     const int sense = inside == Membership::In ? plane.sense : -plane.sense;
     return OrientedPlaneRef{plane.plane, static_cast<signed char>(sense)};
   };
-  const bool meets_itself = scene_.primitives[facets.primitive].meets_itself;
   for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
     const FacetIndex facet = cell.whole_facet(scene_, facets, i);
     const OrientedPlaneRef plane = scene_.facets[facet].plane;
-    result.add(outward(plane), plane.sense, facet, facet_share::whole, {},
-               !meets_itself && is_inside(cell.cell, facet));
+    result.add(outward(plane), plane.sense, facet, facet_share::whole, {});
   }
   for (const ClippedFacet& facet : cell.clipped_of(facets)) {
     const OrientedPlaneRef plane = scene_.facets[facet.facet].plane;
@@ -75,13 +77,36 @@ void CellSolver::emit_primitive(const CellTask& cell, PieceCollector& result) co
   }
 }
 
-// A whole facet in the open cell.
-bool CellSolver::is_inside(const Cell& cell, FacetIndex facet) const {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Range& bounds = scene_.bounds.facets[axis][facet];
-    if (!(bounds.lower > cell.lower[axis] && bounds.upper < cell.upper[axis])) return false;
+// Whether a facet may have a corner in a wall that did not cut it, or a primitive meets itself.
+bool CellSolver::touches_walls(const CellTask& task) const {
+  const Cell& cell = task.cell;
+  const auto is_inside = [&](FacetIndex facet) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Range& bounds = scene_.bounds.facets[axis][facet];
+      if (!(bounds.lower > cell.lower[axis] && bounds.upper < cell.upper[axis])) return false;
+    }
+    return true;
+  };
+  const auto is_off = [](const Vertex& vertex, Axis axis, double wall) {
+    return std::abs(vertex.coordinate(axis) - wall) > vertex.error * (1 + 0x1p-50) ||
+           is_made_by(vertex, PlaneRef::of_wall(axis, wall));
+  };
+  const auto is_off_walls = [&](const Corner& corner) {
+    return std::ranges::all_of(std::array{Axis::X, Axis::Y, Axis::Z}, [&](Axis axis) {
+      return is_off(corner.vertex, axis, cell.lower[static_cast<std::size_t>(axis)]) &&
+             is_off(corner.vertex, axis, cell.upper[static_cast<std::size_t>(axis)]);
+    });
+  };
+  for (const PrimitiveFacets& facets : task.primitives) {
+    if (scene_.primitives[facets.primitive].meets_itself) return true;
+    for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
+      if (!is_inside(task.whole_facet(scene_, facets, i))) return true;
+    }
+    for (const ClippedFacet& facet : task.clipped_of(facets)) {
+      if (!std::ranges::all_of(task.corners_of(facet), is_off_walls)) return true;
+    }
   }
-  return true;
+  return false;
 }
 
 // A bounded solid has no boundary at the root cell's walls, and its complement has the space there.

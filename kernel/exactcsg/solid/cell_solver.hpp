@@ -45,7 +45,7 @@ class CellSolver {
   };
 
   void emit_primitive(const CellTask& cell, PieceCollector& result) const;
-  bool is_inside(const Cell& cell, FacetIndex facet) const;
+  bool touches_walls(const CellTask& cell) const;
 
   const Scene& scene_;
   Decomposition decomposition_;

@@ -75,9 +75,9 @@ PieceBuffer compacted(const PieceBuffer& buffer) {
 }
 
 void PieceCollector::add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
-                         std::uint64_t share, const CornerView& polygon, bool isolated) {
+                         std::uint64_t share, const CornerView& polygon) {
   if (share == facet_share::whole) {
-    buffer_.pieces.push_back({outward, corner_sense, 0, 0, facet, share, isolated});
+    buffer_.pieces.push_back({outward, corner_sense, 0, 0, facet, share});
     return;
   }
   begin(outward, corner_sense, facet, share);
@@ -117,7 +117,8 @@ void PieceCollector::take_back_to(const Mark& mark) {
   }
 }
 
-PieceBuffer PieceCollector::take() {
+PieceBuffer PieceCollector::take(bool in_general_position) {
+  for (BoundaryPiece& piece : buffer_.pieces) piece.in_general_position = in_general_position;
   PieceBuffer result = buffer_;  // copies have no memory to spare
   discard();
   return result;

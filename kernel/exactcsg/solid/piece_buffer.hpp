@@ -5,6 +5,16 @@
 //
 // LAW pieces.1  in one buffer, a meeting point of three planes is stored once, however many pieces
 //               have it for a corner.
+//
+// LAW pieces.3  a cell is in general position if in all signs that deciding it took no corner of
+//               a facet lay in a plane or a wall by chance, being no meeting point of it, no facets
+//               of two primitives are coplanar in it, and no primitive in it meets itself. Then the
+//               edges of its pieces have no point in common but common ends, and two of them lie on
+//               one line only if they lie in the same two planes: where edges p q and r s of
+//               different primitives meet, a facet in p has a corner in p, q and r (or a cut makes
+//               one) whose side of s is asked for, since nothing has settled yet whether it is
+//               inside the other primitive; and a point of contact on a wall lies in both cells,
+//               or in an edge that lies in the wall.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,9 +40,8 @@ struct BoundaryPiece {
   std::uint32_t corner_count = 0;
   FacetIndex facet = 0;     // of the scene, that this is a part of
   std::uint64_t share = 0;  // of that facet
-  // A whole facet of a primitive that does not meet itself, inside a cell in which nothing else is
-  // boundary.
-  bool isolated = false;
+  // In its cells (LAW pieces.3).
+  bool in_general_position = false;
   // The corners bound a hole in the piece before this one, clockwise seen from its front.
   bool is_hole = false;
 };
@@ -67,7 +76,7 @@ class PieceCollector {
  public:
   // The corners are stored unless the share is that of a whole facet. COST: O(1) a corner
   void add(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
-           std::uint64_t share, const CornerView& polygon, bool isolated = false);
+           std::uint64_t share, const CornerView& polygon);
   // The same without corners, which add_corner adds to the last piece. A piece with corners of its
   // own need not be convex. REQUIRES share != facet_share::whole
   void begin(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
@@ -85,7 +94,7 @@ class PieceCollector {
   void take_back_to(const Mark& mark);
 
   // What was added since the last call, in memory of the right size.
-  PieceBuffer take();
+  PieceBuffer take(bool in_general_position = false);
   // Forgets it: what a cell added before an error or a cancellation ended it.
   void discard();
 

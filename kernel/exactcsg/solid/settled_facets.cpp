@@ -44,7 +44,8 @@ SettledFacets settled_facets(const Scene& scene, const std::vector<PieceBuffer>&
   for (const PieceBuffer& buffer : buffers) {
     for (const BoundaryPiece& piece : buffer.pieces) {
       if (piece.share != facet_share::whole) continue;
-      emitted[piece.facet] = piece.isolated ? Emitted::Isolated : Emitted::Whole;
+      emitted[piece.facet] =
+          piece.in_general_position ? Emitted::InGeneralPosition : Emitted::Whole;
     }
   }
   return SettledFacets(scene, emitted);

@@ -7,8 +7,8 @@
 // A facet is settled if it came out as boundary whole, lies in the plane of no other facet of the
 // scene (in either sense), and surely turns at every corner. No other piece of boundary lies in its
 // plane: its sides bound a face as they are, and between two settled facets a side is an edge, but
-// for vertices of other edges that touch it. Nothing touches a facet that lies in an open
-// cell in which no other primitive has boundary: it is isolated.
+// for vertices of other edges that touch it: not if either facet is in general position in all of
+// its cells (LAW pieces.3).
 
 #include <cstdint>
 #include <vector>
@@ -20,7 +20,7 @@ namespace exactcsg {
 
 class SettledFacets {
  public:
-  enum class Emitted : unsigned char { NotWhole, Whole, Isolated };
+  enum class Emitted : unsigned char { NotWhole, Whole, InGeneralPosition };
 
   // emitted: by facet.
   SettledFacets(const Scene& scene, const std::vector<Emitted>& emitted);
@@ -31,8 +31,8 @@ class SettledFacets {
     return !plane.is_wall() && planes_[plane.table_index()] != Emitted::NotWhole;
   }
   // REQUIRES is_settled(plane)
-  bool is_isolated(PlaneRef plane) const {
-    return planes_[plane.table_index()] == Emitted::Isolated;
+  bool is_in_general_position(PlaneRef plane) const {
+    return planes_[plane.table_index()] == Emitted::InGeneralPosition;
   }
 
  private:

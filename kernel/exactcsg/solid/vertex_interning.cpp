@@ -68,12 +68,11 @@ class Items {
         vertices_(vertices),
         meeting_points_(static_cast<std::uint32_t>(vertices.meeting_points.size())) {}
 
-  std::size_t count() const { return meeting_points_ + vertices_.has_point.size(); }
+  std::size_t count() const { return meeting_points_ + vertices_.point_occurs.size(); }
   bool is_point(std::uint32_t item) const { return item >= meeting_points_; }
   std::uint32_t id(std::uint32_t item) const { return item - meeting_points_; }
-  bool occurs(std::uint32_t item) const {
-    return is_point(item) ? vertices_.has_point[id(item)] != 0
-                          : vertices_.meeting_points[item] != nullptr;
+  Occurrence occurrence(std::uint32_t item) const {
+    return is_point(item) ? vertices_.point_occurs[id(item)] : vertices_.meeting_point_occurs[item];
   }
   Vertex vertex(std::uint32_t item) const {
     return is_point(item) ? geometry_.vertex(PointId{id(item)}) : *vertices_.meeting_points[item];
@@ -92,10 +91,38 @@ std::vector<KeyInterval> keys_of(const Items& items, unsigned threads) {
     keys[part].reserve(end - begin);
     for (std::size_t i = begin; i < end; ++i) {
       const auto item = static_cast<std::uint32_t>(i);
-      if (items.occurs(item)) keys[part].push_back(key_of(items.vertex(item), item));
+      if (items.occurrence(item) != Occurrence::Some) continue;
+      keys[part].push_back(key_of(items.vertex(item), item));
     }
   });
   return joined(threads, std::move(keys));
+}
+
+// Appends those that stand alone, in their order, each with a number of its own.
+template <class NumberOf>
+void append_alone(const Items& items, unsigned threads, const NumberOf& number_of,
+                  std::vector<Vertex>& distinct) {
+  const Parts parts(items.count());
+  std::vector<std::size_t> firsts(parts.count() + 1, 0);
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (items.occurrence(static_cast<std::uint32_t>(i)) == Occurrence::Alone) ++count;
+    }
+    firsts[part + 1] = count;
+  });
+  firsts[0] = distinct.size();
+  std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+  distinct.resize(firsts.back());
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    auto next = static_cast<std::uint32_t>(firsts[part]);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto item = static_cast<std::uint32_t>(i);
+      if (items.occurrence(item) != Occurrence::Alone) continue;
+      distinct[next] = items.vertex(item);
+      number_of(item) = next++;
+    }
+  });
 }
 
 // The distinct ones among the vertices of one cluster.
@@ -173,7 +200,7 @@ InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices
   const Items items(geometry, vertices);
   InternedVertices result;
   result.number_of_meeting_point.resize(vertices.meeting_points.size());
-  result.number_of_point.resize(vertices.has_point.size());
+  result.number_of_point.resize(vertices.point_occurs.size());
   const auto number_of = [&](std::uint32_t item) -> std::uint32_t& {
     return items.is_point(item) ? result.number_of_point[items.id(item)]
                                 : result.number_of_meeting_point[item];
@@ -207,6 +234,7 @@ InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices
   });
   found.reset();  // its memory is wanted now
   result.distinct = joined(threads, std::move(distinct));
+  append_alone(items, threads, number_of, result.distinct);
   return result;
 }
 

@@ -57,10 +57,18 @@ class Clusters {
   Parts parts_;
 };
 
+// What is known of a corner of pieces before anything is compared.
+enum class Occurrence : unsigned char {
+  None,   // it is no corner of a piece
+  Alone,  // no other has its position
+  Some
+};
+
 // Corners of pieces: meeting points, some of them more than once, and input points by id.
 struct CornerVertices {
-  std::vector<const Vertex*> meeting_points;  // null: one that does not occur
-  std::vector<unsigned char> has_point;       // by id, of all points of the geometry
+  std::vector<const Vertex*> meeting_points;
+  std::vector<Occurrence> meeting_point_occurs;
+  std::vector<Occurrence> point_occurs;  // by id, of all points of the geometry
 };
 
 struct InternedVertices {
@@ -70,7 +78,8 @@ struct InternedVertices {
 };
 
 // LAW interning.1  two numbers are equal iff the exact positions are.
-// COST: O(n log n) doubles; exact only where certified positions overlap.
+// COST: O(n log n) doubles; exact only where certified positions overlap. O(1) for those that stand
+// alone.
 InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices,
                         TierStatistics& statistics, unsigned threads = 1);
 

@@ -25,8 +25,12 @@ bool is_whole(std::vector<Shares>& shares, const BoundaryPiece& piece) {
 
 void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers, unsigned threads) {
   std::vector<Shares> shares(scene.facets.size());
+  std::vector<bool> touched(scene.facets.size(), false);  // not in general position somewhere
   for (const PieceBuffer& buffer : buffers) {
-    for (const BoundaryPiece& piece : buffer.pieces) share_of(shares, piece) += piece.share;
+    for (const BoundaryPiece& piece : buffer.pieces) {
+      share_of(shares, piece) += piece.share;
+      if (!piece.in_general_position) touched[piece.facet] = true;
+    }
   }
   std::vector<bool> done(scene.facets.size(), false);
   for (PieceBuffer& buffer : buffers) {
@@ -35,6 +39,7 @@ void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers,
       if (done[piece.facet]) return true;
       done[piece.facet] = true;
       piece.share = facet_share::whole;
+      piece.in_general_position = !touched[piece.facet];
       return false;
     };
     buffer.pieces.erase(std::remove_if(buffer.pieces.begin(), buffer.pieces.end(), restore),
