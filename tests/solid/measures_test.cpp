@@ -31,14 +31,6 @@ Rational long_number(unsigned n) {
   return 1 + Rational(Integer(1), p);
 }
 
-AffineMap translation(const Rational& x, const Rational& y, const Rational& z) {
-  AffineMap map = AffineMap::identity();
-  map.m[0][3] = x;
-  map.m[1][3] = y;
-  map.m[2][3] = z;
-  return map;
-}
-
 bool holds(const Enclosure& e, const Rational& value) {
   return e.lower <= value && value <= e.upper;
 }
@@ -199,12 +191,12 @@ TEST(Figures, ZeroCentroidBySymmetryAndByExactSums) {
   EXPECT_TRUE(even.unproved.empty());
   // A tetrahedron moved so that its centre is at the origin has no such symmetry.
   const MeasuredFigures odd =
-      measure(boundary_of(tetrahedron(a, b, c), translation(-a / 4, -b / 4, -c / 4)));
+      measure(boundary_of(tetrahedron(a, b, c), test::translation(-a / 4, -b / 4, -c / 4)));
   EXPECT_EQ(*odd.centroid_decimals, (std::array<std::string, 3>{"0", "0", "0"}));
   EXPECT_TRUE(odd.unproved.empty());
   // Moved by 10^-40 more, the figure is that.
   const MeasuredFigures off = measure(boundary_of(
-      tetrahedron(a, b, c), translation(parse_rational("1e-40").value() - a / 4, 0, -c / 4)));
+      tetrahedron(a, b, c), test::translation(parse_rational("1e-40").value() - a / 4, 0, -c / 4)));
   EXPECT_EQ((*off.centroid_decimals)[0], "1e-40");
 }
 
@@ -226,7 +218,7 @@ TEST(Figures, VolumeAndAreaAlone) {
 TEST(Figures, CentroidBySymmetryAboutAnyPoint) {
   const Rational a = long_number(40009);
   const Rational b = long_number(50021);
-  const Boundary moved = boundary_of(octahedron(a, a, b), translation({1, 2}, 20, {-5, 4}));
+  const Boundary moved = boundary_of(octahedron(a, a, b), test::translation({1, 2}, 20, {-5, 4}));
   const MeasuredFigures m = measure(moved);
   EXPECT_EQ(*m.centroid_decimals, (std::array<std::string, 3>{"0.5", "20", "-1.25"}));
   EXPECT_TRUE(m.unproved.empty());

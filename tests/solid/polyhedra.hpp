@@ -23,6 +23,14 @@ inline Polyhedron triangulated(const Polyhedron& p) {
   return result;
 }
 
+inline AffineMap translation(const Rational& x, const Rational& y, const Rational& z) {
+  AffineMap map = AffineMap::identity();
+  map.m[0][3] = x;
+  map.m[1][3] = y;
+  map.m[2][3] = z;
+  return map;
+}
+
 // Both polyhedra side by side, not merged.
 inline Polyhedron together(Polyhedron a, const Polyhedron& b) {
   const auto shift = static_cast<std::uint32_t>(a.vertices.size());

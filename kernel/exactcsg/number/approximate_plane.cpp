@@ -2,7 +2,9 @@
 #include "exactcsg/number/approximate_plane.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace exactcsg {
@@ -35,6 +37,32 @@ Rounded rounded(const Integer& value, long scale) {
 
 double largest(double x, double y, double z) {
   return std::max({std::fabs(x), std::fabs(y), std::fabs(z)});
+}
+
+// The plane through p of this normal, whose components are off by at most `error`.
+std::optional<ApproximatePlane> plane_of_normal(const std::array<double, 3>& normal, double error,
+                                                const ApproximatePoint& p) {
+  const auto& [a, b, c] = normal;
+  const double n = largest(a, b, c);
+  if (!(n > 0x1p-900 && n < 0x1p400)) return std::nullopt;
+  const double normal_error = error * error_inflation;
+  if (!(normal_error <= poorest_normal * n)) return std::nullopt;
+  // d = -n.p: the errors of p and n, and three roundings of each term.
+  const double length = std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
+  const double d = -(a * p.x + b * p.y + c * p.z);
+  const double offset_error =
+      3 * n * p.error + normal_error * (length + 3 * p.error) + 4 * unit * n * length;
+  if (!(length < 0x1p400)) return std::nullopt;
+  // Brings n into [0.5, 1); scaling by a power of two rounds only what underflows.
+  const double scale =
+      std::bit_cast<double>((std::uint64_t{2045} << 52U) -
+                            (std::bit_cast<std::uint64_t>(n) & (std::uint64_t{0x7ff} << 52U)));
+  return ApproximatePlane{a * scale,
+                          b * scale,
+                          c * scale,
+                          d * scale,
+                          normal_error * scale,
+                          (offset_error * scale + 0x1p-1000) * error_inflation};
 }
 
 }  // namespace
@@ -82,30 +110,28 @@ std::optional<ApproximatePlane> approximate_plane_through(const ApproximatePoint
   const double a = uy * vz - uz * vy;
   const double b = uz * vx - ux * vz;
   const double c = ux * vy - uy * vx;
-  const double n = largest(a, b, c);
-  if (!(n > 0x1p-900 && n < 0x1p400)) return std::nullopt;
   // u_i v_j differs from the true product by u dv + v du + du dv; two such products make a
   // component, each rounded once (at most u v * unit), and their difference (at most 2 u v) too:
   // 4 u v * unit, of which the fifth covers second-order terms. Underflow cannot matter: n >
   // 2^-900.
-  const double normal_error =
-      (2 * (u * dv + v * du + du * dv) + 5 * unit * u * v) * error_inflation;
-  if (!(normal_error <= poorest_normal * n)) return std::nullopt;
-  // d = -n.p: the errors of p and n, and three roundings of each term.
-  const double length = std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
-  const double d = -(a * p.x + b * p.y + c * p.z);
-  const double offset_error =
-      3 * n * p.error + normal_error * (length + 3 * p.error) + 4 * unit * n * length;
-  if (!(length < 0x1p400)) return std::nullopt;
-  int exponent = 0;
-  std::frexp(n, &exponent);
-  const double scale = std::ldexp(1.0, -exponent);  // scaling by it rounds only what underflows
-  return ApproximatePlane{a * scale,
-                          b * scale,
-                          c * scale,
-                          d * scale,
-                          normal_error * scale,
-                          (offset_error * scale + 0x1p-1000) * error_inflation};
+  return plane_of_normal({a, b, c}, 2 * (u * dv + v * du + du * dv) + 5 * unit * u * v, p);
+}
+
+std::optional<ApproximatePlane> approximate_plane_along(const ApproximatePoint& p,
+                                                        const ApproximatePoint& q, Axis axis) {
+  const double ux = q.x - p.x;
+  const double uy = q.y - p.y;
+  const double uz = q.z - p.z;
+  // The points' errors and one rounding of the difference.
+  const double error = p.error + q.error + unit * largest(ux, uy, uz);
+  switch (axis) {
+    case Axis::X:
+      return plane_of_normal({0, uz, -uy}, error, p);
+    case Axis::Y:
+      return plane_of_normal({-uz, 0, ux}, error, p);
+    default:
+      return plane_of_normal({uy, -ux, 0}, error, p);
+  }
 }
 
 ApproximatePlane opposite(const ApproximatePlane& p) {

@@ -30,6 +30,11 @@ std::optional<ApproximatePlane> approximate_plane_through(const ApproximatePoint
                                                           const ApproximatePoint& q,
                                                           const ApproximatePoint& r);
 
+// The same of a plane through two points that contains an axis' direction; the normal is
+// (q - p) x (the axis).
+std::optional<ApproximatePlane> approximate_plane_along(const ApproximatePoint& p,
+                                                        const ApproximatePoint& q, Axis axis);
+
 // The axis-parallel plane {axis = position} of this sense, exact but for the position's error.
 ApproximatePlane axis_parallel(Axis axis, int sense, double position, double error);
 

@@ -7,6 +7,8 @@
 #include <map>
 #include <span>
 
+#include "exactcsg/number/sort_in_buckets.hpp"
+
 namespace exactcsg {
 
 namespace {
@@ -87,13 +89,13 @@ class Classifier {
       return approximate_p.d == sense * approximate_q.d ? sense : 0;
     }
     const Plane& exact_p = planes_.exact(points_, p);
-    const PlaneSource& source = planes_.source(q);
-    if (source.exact || !source.has_points) {
+    if (planes_.knows_exact(q) || planes_.points(q).empty()) {
       return compare_sense(exact_p, planes_.exact(points_, q));
     }
     // Whether q's three points lie on p is cheaper to find than q's coprime coefficients.
-    for (const PointId id : source.points) {
-      const Homogeneous<Integer> point = homogeneous_of(points_.exact(id));
+    const auto corners = planes_.points(q).homogeneous(
+        [this](PointId id) { return homogeneous_of(points_.exact(id)); });
+    for (const Homogeneous<Integer>& point : corners) {
       const Integer value =
           exact_p.a * point.x + exact_p.b * point.y + exact_p.c * point.z + exact_p.d * point.w;
       if (value != 0) return 0;
@@ -150,6 +152,35 @@ PlaneKey key_of(const ApproximatePlane& p) {
   return {key - error, key + error};
 }
 
+namespace {
+
+// By the lower ends of the keys, and by number.
+void sort_by_key(std::vector<Keyed>& keyed) {
+  double lowest = infinity;
+  double highest = -infinity;
+  for (const Keyed& item : keyed) {
+    if (!(item.key.lower > -infinity)) continue;
+    lowest = std::min(lowest, item.key.lower);
+    highest = std::max(highest, item.key.lower);
+  }
+  // Monotone, as both operations and rounding are; without a range everything is one bucket.
+  const auto last = static_cast<double>(keyed.size());
+  const double scale = lowest < highest ? last / (highest - lowest) : 0;
+  const auto bucket_of = [&](const Keyed& item) -> std::size_t {
+    const double bucket = (item.key.lower - lowest) * scale;
+    return bucket > 0 ? static_cast<std::size_t>(std::min(bucket, last)) : 0;
+  };
+  std::vector<Keyed> sorted(keyed.size());
+  sort_in_buckets(std::span(keyed), std::span(sorted), keyed.size() + 1, bucket_of,
+                  [](const Keyed& k, const Keyed& l) {
+                    return k.key.lower < l.key.lower ||
+                           (k.key.lower == l.key.lower && k.plane < l.plane);
+                  });
+  keyed = std::move(sorted);
+}
+
+}  // namespace
+
 std::vector<PlaneClass> coincidence_classes(AddedPlanes& planes, const PointTable& points) {
   std::vector<Keyed> keyed;
   keyed.reserve(planes.size());
@@ -162,11 +193,9 @@ std::vector<PlaneClass> coincidence_classes(AddedPlanes& planes, const PointTabl
         continue;
       }
     }
-    keyed.push_back({key_of(planes.approximate(i)), i});
+    keyed.push_back({planes.key(i), i});
   }
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& k, const Keyed& l) {
-    return k.key.lower < l.key.lower || (k.key.lower == l.key.lower && k.plane < l.plane);
-  });
+  sort_by_key(keyed);
 
   Classifier classifier(planes, points);
   classifier.classify(remote);

@@ -7,15 +7,10 @@
 #include <vector>
 
 #include "exactcsg/number/plane_table.hpp"
+#include "exactcsg/number/prepared_plane.hpp"
 
 namespace exactcsg {
 
-// A number of a plane that depends neither on its scale nor on its sense, between two bounds:
-// planes whose enclosures are disjoint are different. [Certified]
-struct PlaneKey {
-  double lower;
-  double upper;
-};
 PlaneKey key_of(const ApproximatePlane& plane);
 
 struct PlaneClass {

@@ -2,6 +2,7 @@
 #include "exactcsg/number/common_denominator.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace exactcsg {
 
@@ -28,10 +29,21 @@ void set_scaled(Integer& result, const Rational& value, const Integer& denominat
 
 std::optional<Integer> short_common_denominator(std::span<const Point3> points) {
   Integer common = 1;
+  mp_limb_t powers_of_two = 1;  // the short ones among the denominators, all bits in one
   for (const Point3& p : points) {
-    for (std::size_t i = 0; i < 3; ++i) make_multiple(common, coordinate(p, i).get_den());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Integer& denominator = coordinate(p, i).get_den();
+      const mp_limb_t first = mpz_getlimbn(denominator.get_mpz_t(), 0);
+      if (mpz_size(denominator.get_mpz_t()) == 1 && std::has_single_bit(first)) {
+        powers_of_two |= first;
+      } else {
+        make_multiple(common, denominator);
+      }
+    }
     if (mpz_sizeinbase(common.get_mpz_t(), 2) > common_denominator_bits) return std::nullopt;
   }
+  make_multiple(common, Integer(std::bit_floor(powers_of_two)));
+  if (mpz_sizeinbase(common.get_mpz_t(), 2) > common_denominator_bits) return std::nullopt;
   return common;
 }
 

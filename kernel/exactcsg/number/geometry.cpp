@@ -51,6 +51,8 @@ Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 
 OrientedPlaneRef Geometry::plane(std::uint32_t added) const { return data_->of_added[added]; }
 
+std::span<const OrientedPlaneRef> Geometry::planes() const { return data_->of_added; }
+
 std::uint32_t Geometry::plane_count() const { return data_->planes.size(); }
 
 std::uint32_t Geometry::point_count() const {

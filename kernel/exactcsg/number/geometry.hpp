@@ -110,12 +110,16 @@ struct ApproximatePoint {
   double error = 0;
 };
 
+ApproximatePoint approximate(const Point3& point);
+
 // What a Geometry wants to know of a point before it is added; any thread may find it.
 struct HashedPoint {
   std::uint64_t hash = 0;
   ApproximatePoint near;
 };
 HashedPoint hashed(const Point3& point);
+
+struct PreparedPlane;  // prepared_plane.hpp: the same of a plane
 
 inline Vertex vertex_of(PointId id, const ApproximatePoint& near) {
   Vertex v;
@@ -137,7 +141,8 @@ class Geometry {
 
   // The canonical reference of the plane that Builder::add_plane returned index `added` for.
   OrientedPlaneRef plane(std::uint32_t added) const;
-  std::uint32_t plane_count() const;  // distinct planes
+  std::span<const OrientedPlaneRef> planes() const;  // by the same index
+  std::uint32_t plane_count() const;                 // distinct planes
   std::uint32_t point_count() const;  // distinct points; ids are 0 ... point_count() - 1
 
   // Exact coprime integer coefficients with the stored normal's sense; walls too.
@@ -199,6 +204,9 @@ class Geometry {
     return plane.is_wall() ? approximate_wall(plane) : approximate_[plane.table_index()];
   }
 
+  // A number of the sign of n.v + d, or zero if the doubles cannot tell.
+  static double filtered_side(const ApproximatePlane& plane, const ApproximatePoint& v);
+
   struct Data;  // private to the implementation
 
  private:
@@ -227,15 +235,21 @@ class Geometry::Builder {
   void add_owner(std::shared_ptr<const void> owner);
   PointId add_owned_point(const Point3& point, const HashedPoint& hashed);
   const Point3& point(PointId id) const;
-  Vertex vertex(PointId id) const;
   // The plane through three points, counter-clockwise from outside. Lazy: nothing exact is computed
   // unless the certified double is too poor or another plane may coincide.
   // THROWS Error(DegenerateFacet) if they are collinear. Returns 0, 1, 2, ... in order of calls.
   std::uint32_t add_plane(PointId p, PointId q, PointId r);
+  // The same of what prepared_plane made of three points, or of two and an axis; no incidences are
+  // added.
+  std::uint32_t add_plane(PreparedPlane plane, PointId p, PointId q, PointId r);
+  std::uint32_t add_plane(PreparedPlane plane, PointId p, PointId q, Axis axis);
   // REQUIRES coprime coefficients (LAW plane.1)
   std::uint32_t add_plane(const Plane& plane);
   // States that the point lies on the added plane (not checked in release builds): tier 0.
   void add_incidence(PointId point, std::uint32_t added_plane);
+
+  // Room for so many more of each.
+  void reserve(std::size_t points, std::size_t planes, std::size_t incidences);
 
   // Finds coincident planes once and for all. COST: O(n log n) doubles, exact comparisons only
   // between planes whose certified doubles cannot tell them apart.
@@ -274,8 +288,11 @@ inline double Geometry::filtered_side(const Vertex& v, PlaneRef plane) const {
     const double difference = v.coordinate(plane.wall_axis()) - plane.wall_position();
     return std::fabs(difference) > v.error * (1 + 0x1p-50) ? difference : 0;
   }
+  return filtered_side(approximate_[plane.table_index()], {v.x, v.y, v.z, v.error});
+}
+
+inline double Geometry::filtered_side(const ApproximatePlane& p, const ApproximatePoint& v) {
   constexpr double rounding = 6 * 0x1p-53;
-  const ApproximatePlane& p = approximate_[plane.table_index()];
   const double value = p.a * v.x + p.b * v.y + p.c * v.z + p.d;
   const double length = std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
   const double bound = length * (p.normal_error + rounding) +

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "exactcsg/number/coincidence.hpp"
 #include "exactcsg/number/geometry_data.hpp"
+#include "exactcsg/number/prepared_plane.hpp"
 
 namespace exactcsg {
 
@@ -38,43 +42,47 @@ SparseTable transposed(const SparseTable& table, std::size_t rows) {
   return result;
 }
 
-// REQUIRES that equal values of a row lie side by side.
-void remove_repetitions(SparseTable& table) {
+// Sorts each row and keeps each value once.
+void make_rows_ascend(SparseTable& table) {
   // Rows only become shorter: they are moved to the front in place.
+  std::uint32_t* const values = table.values.data();
   std::uint32_t written = 0;
   std::uint32_t read = 0;
   for (std::size_t row = 0; row + 1 < table.begin.size(); ++row) {
+    const std::uint32_t end = table.begin[row + 1];
     table.begin[row] = written;
-    for (; read < table.begin[row + 1]; ++read) {
-      const std::uint32_t value = table.values[read];
-      if (written == table.begin[row] || table.values[written - 1] != value) {
-        table.values[written++] = value;
-      }
+    std::uint32_t ascending = read + 1;
+    while (ascending < end && values[ascending - 1] < values[ascending]) ++ascending;
+    std::uint32_t kept = end;
+    if (ascending < end) {
+      std::sort(values + read, values + end);
+      kept = static_cast<std::uint32_t>(std::unique(values + read, values + end) - values);
     }
+    if (written != read) std::copy(values + read, values + kept, values + written);
+    written += kept - read;
+    read = end;
   }
   table.begin.back() = written;
   table.values.resize(written);
 }
 
-// Counting thrice sorts both tables.
+// Incidences come plane by plane mostly, so that counting once sorts them.
 void fill_incidences(const std::vector<Incidence>& incidences, Geometry::Data& data) {
-  const auto plane_of = [&data](const Incidence& incidence) {
-    return data.of_added[incidence.plane].plane.table_index();
-  };
-  SparseTable points_of_planes;
-  std::vector<std::uint32_t>& begin = points_of_planes.begin;
-  begin.assign(data.planes.size() + 1, 0);
-  for (const Incidence& incidence : incidences) ++begin[plane_of(incidence) + 1];
-  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  points_of_planes.values.resize(incidences.size());
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  SparseTable& table = data.planes_of_points;
+  std::vector<std::uint32_t>& begin = table.begin;
+  begin.assign(data.points.size() + 1, 0);
+  // Each place is where the row before begins, until it has been filled.
+  std::uint32_t* const count = begin.data() + 1;
+  for (const Incidence& incidence : incidences) ++count[static_cast<std::size_t>(incidence.point)];
+  std::uint32_t sum = 0;
+  for (std::size_t i = 1; i < begin.size(); ++i) sum += std::exchange(begin[i], sum);
+  table.values.resize(incidences.size());
   for (const Incidence& incidence : incidences) {
-    points_of_planes.values[next[plane_of(incidence)]++] =
-        static_cast<std::uint32_t>(incidence.point);
+    table.values[count[static_cast<std::size_t>(incidence.point)]++] =
+        data.of_added[incidence.plane].plane.table_index();
   }
-  data.planes_of_points = transposed(points_of_planes, data.points.size());
-  remove_repetitions(data.planes_of_points);
-  data.points_of_planes = transposed(data.planes_of_points, data.planes.size());
+  make_rows_ascend(table);
+  data.points_of_planes = transposed(table, data.planes.size());
 }
 
 }  // namespace
@@ -94,15 +102,36 @@ PointId Geometry::Builder::add_owned_point(const Point3& point, const HashedPoin
 
 const Point3& Geometry::Builder::point(PointId id) const { return state_->points.exact(id); }
 
-Vertex Geometry::Builder::vertex(PointId id) const { return state_->points.vertex(id); }
-
 std::uint32_t Geometry::Builder::add_plane(PointId p, PointId q, PointId r) {
-  const std::uint32_t index = state_->planes.add(state_->points, {p, q, r});
+  const PointTable& points = state_->points;
+  const auto near = [&points](PointId id) {
+    return NearPoint{points.exact(id), points.approximate(id)};
+  };
+  const std::uint32_t index = add_plane(prepared_plane(near(p), near(q), near(r)), p, q, r);
   for (const PointId id : {p, q, r}) add_incidence(id, index);
   return index;
 }
 
-std::uint32_t Geometry::Builder::add_plane(const Plane& plane) { return state_->planes.add(plane); }
+std::uint32_t Geometry::Builder::add_plane(PreparedPlane plane, PointId p, PointId q, PointId r) {
+  return state_->planes.add(std::move(plane), {p, q, r});
+}
+
+std::uint32_t Geometry::Builder::add_plane(PreparedPlane plane, PointId p, PointId q, Axis axis) {
+  return state_->planes.add(std::move(plane), {p, q, axis});
+}
+
+std::uint32_t Geometry::Builder::add_plane(const Plane& plane) {
+  return state_->planes.add(prepared_plane(plane), {});
+}
+
+void Geometry::Builder::reserve(std::size_t points, std::size_t planes, std::size_t incidences) {
+  state_->points.reserve(points);
+  state_->planes.reserve(planes);
+  std::vector<Incidence>& known = state_->incidences;
+  if (known.size() + incidences > known.capacity()) {
+    known.reserve(std::max(known.size() + incidences, known.size() * 2));
+  }
+}
 
 void Geometry::Builder::add_incidence(PointId point, std::uint32_t added_plane) {
   state_->incidences.push_back({point, added_plane});
@@ -122,7 +151,7 @@ Geometry Geometry::Builder::build() && {
       data->of_added[i] = {data->of_added[classes[i].first].plane, classes[i].sense};
     }
   }
-  data->planes = PlaneTable(state.planes, firsts);
+  data->planes = PlaneTable(std::move(state.planes), firsts);
   data->points = std::move(state.points);
   data->points.close();
   data->owners = std::move(state.owners);

@@ -169,6 +169,11 @@ Point3 point_of(const Homogeneous<Integer>& p) {
   return point;
 }
 
+Homogeneous<Integer> moved_along_axis(Homogeneous<Integer> point, Axis axis) {
+  (axis == Axis::X ? point.x : axis == Axis::Y ? point.y : point.z) += point.w;
+  return point;
+}
+
 Plane plane_through(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q,
                     const Homogeneous<Integer>& r) {
   thread_local PlaneScratch s;

@@ -48,6 +48,9 @@ Point3 meeting_point_of_line(const Point3& p, const Homogeneous<Integer>& homoge
 // edge along an axis, and a plane across that. COST: O(1), nothing is computed
 std::optional<Point3> copied_meeting_point(const Point3& p, const Point3& q, const Plane& plane);
 
+// The point moved up along the axis by one.
+Homogeneous<Integer> moved_along_axis(Homogeneous<Integer> point, Axis axis);
+
 // The coprime coefficients of the plane through three points. THROWS Error(DegenerateFacet)
 Plane plane_through(const Homogeneous<Integer>& p, const Homogeneous<Integer>& q,
                     const Homogeneous<Integer>& r);

@@ -2,7 +2,9 @@
 #include "exactcsg/number/point_table.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "exactcsg/number/rounding.hpp"
@@ -12,26 +14,36 @@ namespace exactcsg {
 
 namespace {
 
-// After the finaliser of MurmurHash3.
+__extension__ using Wide = unsigned __int128;
+
+// Both halves of a product: every bit of the value reaches the low bits of the hash, also the
+// exponent of a double that has few others.
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
-  hash = (hash ^ value) * 0xff51afd7ed558ccdULL;
-  return hash ^ (hash >> 32U);
+  const Wide product = Wide{hash ^ value} * 0xff51afd7ed558ccdULL;
+  return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64U);
 }
 
 std::uint64_t mixed(std::uint64_t hash, const Integer& value) {
   const std::size_t size = mpz_size(value.get_mpz_t());
-  hash = mixed(hash, size * 2 + (sgn(value) < 0 ? 1U : 0U));
   const mp_limb_t* limbs = mpz_limbs_read(value.get_mpz_t());
   for (std::size_t i = 0; i < size; ++i) hash = mixed(hash, limbs[i]);
   return hash;
 }
 
-std::uint64_t hash_of(const Point3& point) {
+// Mostly the doubles tell points apart. Far from the origin, or where they cannot hold coordinates
+// at all, many different points have equal ones.
+std::uint64_t hash_of(const Point3& point, const ApproximatePoint& near) {
   std::uint64_t hash = 0x9e3779b97f4a7c15ULL;
-  for (const Rational* coordinate : {&point.x, &point.y, &point.z}) {
-    hash = mixed(mixed(hash, coordinate->get_num()), coordinate->get_den());
+  for (const double value : {near.x, near.y, near.z}) {
+    hash = mixed(hash, std::bit_cast<std::uint64_t>(value));
   }
+  if (near.error == 0) return hash;
+  for (const Rational* value : {&point.x, &point.y, &point.z}) hash = mixed(hash, value->get_num());
   return hash;
+}
+
+bool are_equal(const ApproximatePoint& p, const ApproximatePoint& q) {
+  return p.x == q.x && p.y == q.y && p.z == q.z && p.error == q.error;
 }
 
 }  // namespace
@@ -54,7 +66,10 @@ ApproximatePoint approximate(const Point3& point) {
   return {x.value, y.value, z.value, error};
 }
 
-HashedPoint hashed(const Point3& point) { return {hash_of(point), approximate(point)}; }
+HashedPoint hashed(const Point3& point) {
+  const ApproximatePoint near = approximate(point);
+  return {hash_of(point, near), near};
+}
 
 PointId PointTable::intern(const Point3& point) {
   const auto [id, is_new] = find_or_add(point, hashed(point));
@@ -69,13 +84,14 @@ PointId PointTable::intern_lasting(const Point3& point, const HashedPoint& hashe
 }
 
 std::pair<PointId, bool> PointTable::find_or_add(const Point3& point, const HashedPoint& hashed) {
-  if (points_.size() * 2 >= slots_.size()) enlarge_slots();
+  if (points_.size() * 2 >= slots_.size()) enlarge_slots(points_.size() + 1);
   const std::uint64_t hash = hashed.hash;
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = hash & mask;
   for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
     const std::uint32_t id = slots_[slot] - 1;
-    if (hashes_[id] == hash && *points_[id] == point) return {PointId{id}, false};
+    if (hashes_[id] != hash || !are_equal(approximate_[id], hashed.near)) continue;
+    if (hashed.near.error == 0 || *points_[id] == point) return {PointId{id}, false};
   }
   const auto id = static_cast<std::uint32_t>(points_.size());
   slots_[slot] = id + 1;
@@ -89,8 +105,22 @@ void PointTable::close() {
   give_up(slots_);
 }
 
-void PointTable::enlarge_slots() {
-  const std::size_t size = std::max<std::size_t>(slots_.size() * 2, 64);
+void PointTable::reserve(std::size_t more) {
+  const std::size_t size = points_.size() + more;
+  if (size > points_.capacity()) {
+    // Twice the size at least, so that asking often for a little room costs no more.
+    const std::size_t room = std::max(size, points_.size() * 2);
+    points_.reserve(room);
+    hashes_.reserve(room);
+    approximate_.reserve(room);
+  }
+  if (size * 2 > slots_.size()) enlarge_slots(size);
+}
+
+// Slots for at least so many points.
+void PointTable::enlarge_slots(std::size_t least) {
+  std::size_t size = std::max<std::size_t>(slots_.size() * 2, 64);
+  while (size < least * 2) size *= 2;
   slots_.assign(size, 0);
   for (std::uint32_t id = 0; id < hashes_.size(); ++id) {
     std::size_t slot = hashes_[id] & (size - 1);

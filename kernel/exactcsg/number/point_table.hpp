@@ -14,8 +14,6 @@
 
 namespace exactcsg {
 
-ApproximatePoint approximate(const Point3& point);
-
 class PointTable {
  public:
   // The id of the point of this value, a new one if there is none. COST: amortised O(1)
@@ -23,6 +21,8 @@ class PointTable {
   // The same without a copy. REQUIRES the point lasts as long as the table.
   PointId intern_lasting(const Point3& point, const HashedPoint& hashed);
 
+  // Room for so many more.
+  void reserve(std::size_t more);
   // Gives up what new points are sought with. REQUIRES that none is added any more.
   void close();
 
@@ -32,12 +32,11 @@ class PointTable {
     return approximate_[static_cast<std::size_t>(id)];
   }
   const ApproximatePoint* approximate() const { return approximate_.data(); }  // by id
-  Vertex vertex(PointId id) const { return vertex_of(id, approximate(id)); }
 
  private:
   // Returns the id, and whether it is a new one, whose point is still to be set.
   std::pair<PointId, bool> find_or_add(const Point3& point, const HashedPoint& hashed);
-  void enlarge_slots();
+  void enlarge_slots(std::size_t least);
 
   std::vector<const Point3*> points_;
   std::deque<Point3> copies_;  // a deque: references stay valid while points are added

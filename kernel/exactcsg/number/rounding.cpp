@@ -107,6 +107,16 @@ NearestDouble round_to_nearest(const Rational& number) {
   const Integer& numerator = number.get_num();
   const Integer& denominator = number.get_den();
   if (numerator == 0) return {0, true};
+  if (mpz_size(numerator.get_mpz_t()) == 1 && mpz_size(denominator.get_mpz_t()) == 1) {
+    const mp_limb_t above = mpz_getlimbn(numerator.get_mpz_t(), 0);
+    const mp_limb_t below = mpz_getlimbn(denominator.get_mpz_t(), 0);
+    // Both are doubles, of which the processor rounds the quotient. In lowest terms only a power of
+    // two leaves no remainder.
+    if ((above | below) >> std::numeric_limits<double>::digits == 0) {
+      const double magnitude = static_cast<double>(above) / static_cast<double>(below);
+      return {sgn(numerator) < 0 ? -magnitude : magnitude, std::has_single_bit(below)};
+    }
+  }
   const Head above = head_of(limbs_of(numerator));
   const Head below = head_of(limbs_of(denominator));
   const bool is_dyadic = is_power_of_two(limbs_of(denominator));

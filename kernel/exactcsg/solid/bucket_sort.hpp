@@ -14,31 +14,15 @@
 #include <utility>
 #include <vector>
 
+#include "exactcsg/number/sort_in_buckets.hpp"
 #include "exactcsg/solid/in_parallel.hpp"
 
 namespace exactcsg {
 
 namespace detail {
 
-// Moves `from` to `to`, which has the same size, sorted. REQUIRES bucket_of(item) < bucket_count
-template <class Item, class BucketOf, class Less>
-void sort_in_buckets(std::span<Item> from, std::span<Item> to, std::size_t bucket_count,
-                     const BucketOf& bucket_of, const Less& less) {
-  std::vector<std::uint32_t> place(bucket_count + 1, 0);
-  for (const Item& item : from) ++place[bucket_of(item) + 1];
-  for (std::size_t i = 1; i < place.size(); ++i) place[i] += place[i - 1];
-  // Afterwards every place is where its bucket ends.
-  for (Item& item : from) to[place[bucket_of(item)]++] = std::move(item);
-  std::uint32_t begin = 0;
-  for (std::size_t i = 0; i < bucket_count; ++i) {
-    const std::uint32_t end = place[i];
-    if (end - begin > 1) std::sort(to.begin() + begin, to.begin() + end, less);
-    begin = end;
-  }
-}
-
-// The same by groups of neighbouring buckets: each part of the items is counted and moved into the
-// groups, then each group is sorted.
+// As sort_in_buckets, by groups of neighbouring buckets: each part of the items is counted and
+// moved into the groups, then each group is sorted.
 template <class Item, class BucketOf, class Less>
 void sort_in_groups(unsigned threads, std::vector<Item>& items, std::size_t bucket_count,
                     const BucketOf& bucket_of, const Less& less) {
@@ -90,7 +74,7 @@ void sort_in_buckets(std::vector<Item>& items, std::size_t bucket_count, BucketO
     return;
   }
   std::vector<Item> sorted(items.size());
-  detail::sort_in_buckets(std::span(items), std::span(sorted), bucket_count, bucket_of, less);
+  sort_in_buckets(std::span(items), std::span(sorted), bucket_count, bucket_of, less);
   items = std::move(sorted);
 }
 

@@ -10,8 +10,7 @@
 #include <unordered_map>
 
 #include "exactcsg/number/homogeneous.hpp"
-#include "exactcsg/solid/bucket_sort.hpp"
-#include "exactcsg/solid/certified_vector.hpp"
+#include "exactcsg/number/prepared_plane.hpp"
 #include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/polygon.hpp"
 #include "exactcsg/solid/polyhedron_signs.hpp"
@@ -63,156 +62,355 @@ std::array<std::uint32_t, 3> spanning_triple(const Polyhedron& polyhedron,
   return {facet[best[0]], facet[best[1]], facet[best[2]]};
 }
 
-// Of every side of every facet in turn: the facet that walks it the other way.
-// THROWS Error(InternalError) if there is none. COST: O(n log n)
-std::vector<std::uint32_t> neighbours_of(const Polyhedron& polyhedron) {
-  struct Side {
-    std::uint32_t low;
-    std::uint32_t high;
-    std::uint32_t facet;
-    std::uint32_t number;
-    bool ascends;
-  };
-  std::vector<Side> sides;
-  for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
-    const Facet& facet = polyhedron.facets[f];
-    for (std::size_t i = 0; i < facet.size(); ++i) {
-      const std::uint32_t from = facet[i];
-      const std::uint32_t to = facet[i + 1 == facet.size() ? 0 : i + 1];
-      const auto number = static_cast<std::uint32_t>(sides.size());
-      sides.push_back({std::min(from, to), std::max(from, to), f, number, from < to});
-    }
+using Triple = std::array<std::uint32_t, 3>;
+
+// A plane through the side from one vertex to another, not the facet's own: it contains the axis
+// that the facet's normal leans to most.
+struct PlaneAcross {
+  std::uint32_t from;
+  std::uint32_t to;
+  Axis axis;
+};
+
+// What copies of one shape have in common: they have the same facets, and those that are not convex
+// are images of each other under a translation. Planes are numbered within the shape, those of
+// facets first.
+struct Kind {
+  std::shared_ptr<const Polyhedron> first;
+  bool convex = true;
+  std::vector<std::uint32_t> first_corners;  // of each facet, and the end
+  std::vector<std::uint32_t> corners;        // vertices, those of all facets in turn
+  std::vector<std::uint32_t> facet_planes;   // of each facet; empty: facet f has plane f
+  // Of the side from each corner to the next: a plane that meets the facet's plane in it.
+  std::vector<std::uint32_t> side_planes;
+  std::vector<Triple> triples;             // of facets' planes: corners that span the plane
+  std::vector<PlaneAcross> planes_across;  // sides between coplanar facets
+  std::vector<ApproximatePoint> near;      // the first's vertices, unless it is convex
+
+  std::uint32_t facet_count() const { return static_cast<std::uint32_t>(first_corners.size() - 1); }
+  std::uint32_t plane_count() const {
+    return static_cast<std::uint32_t>(triples.size() + planes_across.size());
   }
-  sort_in_buckets(
-      sides, polyhedron.vertices.size(), [](const Side& side) { return side.low; },
-      [](const Side& a, const Side& b) {
-        return a.high != b.high ? a.high < b.high : a.number < b.number;
-      });
-  std::vector<std::uint32_t> result(sides.size());
-  for (auto begin = sides.begin(); begin != sides.end();) {
-    const auto end = std::find_if(begin, sides.end(), [&](const Side& side) {
-      return side.low != begin->low || side.high != begin->high;
-    });
-    for (auto side = begin; side != end; ++side) {
-      const auto other =
-          std::find_if(begin, end, [&](const Side& s) { return s.ascends != side->ascends; });
-      if (other == end) {
-        throw Error(ErrorId::InternalError, {"a primitive that is not closed", "a closed one"});
-      }
-      result[side->number] = other->facet;
-    }
-    begin = end;
+  std::uint32_t plane_of(std::uint32_t facet) const {
+    return facet_planes.empty() ? facet : facet_planes[facet];
   }
-  return result;
-}
+  std::span<const std::uint32_t> corners_of(std::uint32_t facet) const {
+    return std::span(corners).subspan(first_corners[facet],
+                                      first_corners[facet + 1] - first_corners[facet]);
+  }
+  // Where the side ends that begins at this corner of this facet.
+  std::uint32_t end_of_side(std::uint32_t facet, std::uint32_t side) const {
+    return corners[side + 1 == first_corners[facet + 1] ? first_corners[facet] : side + 1];
+  }
+};
 
 // What can be said of a polyhedron by itself.
 struct PreparedPolyhedron {
   std::vector<HashedPoint> points;
-  std::vector<std::array<std::uint32_t, 3>> triples;  // of facets: corners that span the plane
-  std::vector<bool> flat_sides;  // the neighbour lies in the same plane; empty: none does
+  std::array<Range, 3> bounds;  // of the points
+  std::vector<PreparedPlane> planes;
+  std::vector<Triple> triples;  // empty: those of the kind
+
+  NearPoint near_point(const Polyhedron& polyhedron, std::uint32_t v) const {
+    return {polyhedron.vertices[v], points[v].near};
+  }
 };
 
-// Tells which neighbours of a facet lie in its plane: mostly by doubles that none does.
-class FlatSides {
- public:
-  FlatSides(const Polyhedron& polyhedron, const std::vector<HashedPoint>& near)
-      : polyhedron_(polyhedron), near_(near) {}
-
-  // The facets asked about next are neighbours of this one.
-  void set_facet(const Facet& facet, const std::array<std::uint32_t, 3>& triple) {
-    facet_ = &facet;
-    triple_ = triple;
-    origin_ = position_of(near_[triple[0]].near);
-    normal_ = cross(difference(position_of(near_[triple[1]].near), origin_),
-                    difference(position_of(near_[triple[2]].near), origin_));
+void list_corners(Kind& kind) {
+  const std::vector<Facet>& facets = kind.first->facets;
+  kind.first_corners.reserve(facets.size() + 1);
+  kind.first_corners.push_back(0);
+  std::size_t count = 0;
+  for (const Facet& facet : facets) {
+    count += facet.size();
+    kind.first_corners.push_back(static_cast<std::uint32_t>(count));
   }
+  kind.corners.reserve(count);
+  for (const Facet& facet : facets) {
+    kind.corners.insert(kind.corners.end(), facet.begin(), facet.end());
+  }
+}
 
-  bool is_flat(const Facet& neighbour) {
-    return std::all_of(neighbour.begin(), neighbour.end(), [&](std::uint32_t corner) {
-      return std::find(facet_->begin(), facet_->end(), corner) != facet_->end() ||
-             is_in_plane(corner);
-    });
+// Of every side the first one that walks the same edge the other way. A side has the number of the
+// corner where it begins.
+// THROWS Error(InternalError) if there is none.
+// COST: O(n) if few sides leave a vertex, else O(n log n)
+std::vector<std::uint32_t> opposite_sides(const Kind& kind) {
+  struct Leaving {
+    std::uint32_t to;
+    std::uint32_t side;
+  };
+  const auto comes_before = [](const Leaving& a, const Leaving& b) {
+    return a.to != b.to ? a.to < b.to : a.side < b.side;
+  };
+  const auto count = static_cast<std::uint32_t>(kind.corners.size());
+  const std::size_t vertex_count = kind.first->vertices.size();
+  // Of the sides that leave a vertex. Counted two places further on, so that each place is where
+  // the row before ends once all are filled.
+  std::vector<std::uint32_t> begin(vertex_count + 2, 0);
+  for (const std::uint32_t from : kind.corners) ++begin[from + 2];
+  for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
+  std::vector<Leaving> leaving(count);
+  std::vector<std::uint32_t> ends(count);
+  for (std::uint32_t f = 0; f < kind.facet_count(); ++f) {
+    for (std::uint32_t side = kind.first_corners[f]; side < kind.first_corners[f + 1]; ++side) {
+      ends[side] = kind.end_of_side(f, side);
+      leaving[begin[kind.corners[side] + 1]++] = {ends[side], side};
+    }
+  }
+  const auto sides_from = [&](std::size_t v) {
+    return std::span(leaving).subspan(begin[v], begin[v + 1] - begin[v]);
+  };
+  // Short rows are searched from their beginning, long ones are sorted first.
+  constexpr std::size_t short_row = 32;
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    const auto row = sides_from(v);
+    if (row.size() > short_row) std::sort(row.begin(), row.end(), comes_before);
+  }
+  std::vector<std::uint32_t> result(count);
+  for (std::uint32_t side = 0; side < count; ++side) {
+    const std::uint32_t back_to = kind.corners[side];
+    const auto row = sides_from(ends[side]);
+    const auto found =
+        row.size() > short_row
+            ? std::lower_bound(row.begin(), row.end(), Leaving{back_to, 0}, comes_before)
+            : std::find_if(row.begin(), row.end(),
+                           [back_to](const Leaving& other) { return other.to == back_to; });
+    if (found == row.end() || found->to != back_to) {
+      throw Error(ErrorId::InternalError, {"a primitive that is not closed", "a closed one"});
+    }
+    result[side] = found->side;
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> facets_of_sides(const Kind& kind) {
+  std::vector<std::uint32_t> result;
+  result.reserve(kind.corners.size());
+  for (std::uint32_t f = 0; f < kind.facet_count(); ++f) {
+    result.resize(kind.first_corners[f + 1], f);
+  }
+  return result;
+}
+
+PreparedPlane plane_through_corners(const Polyhedron& polyhedron, const PreparedPolyhedron& known,
+                                    const Triple& triple) {
+  return prepared_plane(known.near_point(polyhedron, triple[0]),
+                        known.near_point(polyhedron, triple[1]),
+                        known.near_point(polyhedron, triple[2]));
+}
+
+Axis steepest_axis(const Geometry::ApproximatePlane& plane) {
+  const double a = std::abs(plane.a);
+  const double b = std::abs(plane.b);
+  const double c = std::abs(plane.c);
+  return a >= b && a >= c ? Axis::X : b >= c ? Axis::Y : Axis::Z;
+}
+
+// Finds the planes of a mesh's facets and sides: neighbours in one plane share it, and the side
+// between them is given another plane.
+class MeshPlanes {
+ public:
+  // known: of the kind's first polyhedron. REQUIRES its points; its planes are filled in.
+  MeshPlanes(Kind& kind, PreparedPolyhedron& known)
+      : kind_(kind),
+        known_(known),
+        polyhedron_(*kind.first),
+        opposite_(opposite_sides(kind)),
+        facets_(facets_of_sides(kind)) {}
+
+  void find() {
+    planes_.reserve(kind_.triples.size());
+    for (const Triple& triple : kind_.triples) {
+      planes_.push_back(plane_through_corners(polyhedron_, known_, triple));
+    }
+    find_flat_sides();
+    keep_planes();
+    set_side_planes();
   }
 
  private:
-  bool is_in_plane(std::uint32_t corner) {
-    const CertifiedVector to_corner = difference(position_of(near_[corner].near), origin_);
-    if (sign_of_certain(dot(normal_, to_corner)) != Sign::Zero) return false;
-    if (!signs_) signs_.emplace(polyhedron_.vertices);
-    return signs_->orientation(triple_[0], triple_[1], triple_[2], corner) == Sign::Zero;
+  std::uint32_t neighbour(std::uint32_t side) const { return facets_[opposite_[side]]; }
+  // More than two facets may share an edge: then it need not be.
+  bool was_seen_from_there(std::uint32_t side) const {
+    return opposite_[side] < side && opposite_[opposite_[side]] == side;
   }
 
+  void find_flat_sides() {
+    is_flat_.resize(kind_.corners.size());
+    for (std::uint32_t side = 0; side < is_flat_.size(); ++side) {
+      is_flat_[side] = was_seen_from_there(side) ? static_cast<bool>(is_flat_[opposite_[side]])
+                                                 : are_coplanar(facets_[side], neighbour(side));
+    }
+  }
+
+  bool are_coplanar(std::uint32_t facet, std::uint32_t other) {
+    const auto own = kind_.corners_of(facet);
+    const auto corners = kind_.corners_of(other);
+    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
+      return std::find(own.begin(), own.end(), corner) != own.end() || is_in_plane(facet, corner);
+    });
+  }
+
+  // Mostly doubles tell that it is not.
+  bool is_in_plane(std::uint32_t facet, std::uint32_t corner) {
+    if (Geometry::filtered_side(planes_[facet].near, known_.points[corner].near) != 0) return false;
+    if (!signs_) signs_.emplace(polyhedron_.vertices);
+    const auto [a, b, c] = kind_.triples[facet];
+    return signs_->orientation(a, b, c, corner) == Sign::Zero;
+  }
+
+  // Of coplanar facets, which are folded if they do not look the same way.
+  bool look_the_same_way(std::uint32_t facet, std::uint32_t other) const {
+    const Geometry::ApproximatePlane& p = planes_[facet].near;
+    const Geometry::ApproximatePlane& q = planes_[other].near;
+    return p.a * q.a + p.b * q.b + p.c * q.c > 0;
+  }
+
+  // The neighbour before in whose plane the facet is, or the facet.
+  std::uint32_t facet_with_plane_of(std::uint32_t facet) const {
+    for (std::uint32_t side = kind_.first_corners[facet]; side < kind_.first_corners[facet + 1];
+         ++side) {
+      const std::uint32_t other = neighbour(side);
+      if (is_flat_[side] && other < facet && look_the_same_way(facet, other)) return other;
+    }
+    return facet;
+  }
+
+  // Coplanar facets that no neighbours connect keep planes of their own; the Geometry finds them.
+  void keep_planes() {
+    kind_.facet_planes.resize(kind_.facet_count());
+    known_.planes.reserve(kind_.facet_count());
+    std::uint32_t kept = 0;
+    for (std::uint32_t f = 0; f < kind_.facet_count(); ++f) {
+      if (const std::uint32_t other = facet_with_plane_of(f); other != f) {
+        kind_.facet_planes[f] = kind_.facet_planes[other];
+        continue;
+      }
+      known_.planes.push_back(std::move(planes_[f]));
+      kind_.triples[kept] = kind_.triples[f];
+      kind_.facet_planes[f] = kept++;
+    }
+    kind_.triples.resize(kept);
+  }
+
+  void set_side_planes() {
+    kind_.side_planes.resize(kind_.corners.size());
+    for (std::uint32_t side = 0; side < kind_.side_planes.size(); ++side) {
+      kind_.side_planes[side] = plane_of_side(side);
+    }
+  }
+
+  std::uint32_t plane_of_side(std::uint32_t side) {
+    if (!is_flat_[side]) return kind_.facet_planes[neighbour(side)];
+    if (was_seen_from_there(side)) return kind_.side_planes[opposite_[side]];
+    const std::uint32_t facet = facets_[side];
+    const std::uint32_t from = kind_.corners[side];
+    const std::uint32_t to = kind_.end_of_side(facet, side);
+    const Axis axis = steepest_axis(planes_[facet].near);
+    known_.planes.push_back(prepared_plane(known_.near_point(polyhedron_, from),
+                                           known_.near_point(polyhedron_, to), axis));
+    kind_.planes_across.push_back({from, to, axis});
+    return kind_.plane_count() - 1;
+  }
+
+  Kind& kind_;
+  PreparedPolyhedron& known_;
   const Polyhedron& polyhedron_;
-  const std::vector<HashedPoint>& near_;
-  const Facet* facet_ = nullptr;
-  std::array<std::uint32_t, 3> triple_{};
-  CertifiedVector origin_;
-  CertifiedVector normal_;
+  std::vector<std::uint32_t> opposite_;
+  std::vector<std::uint32_t> facets_;     // of sides
+  std::vector<PreparedPlane> planes_;     // of facets
+  std::vector<bool> is_flat_;             // sides: the neighbour lies in the same plane
   std::optional<PolyhedronSigns> signs_;  // once doubles do not tell
 };
 
-// `neighbours` as of neighbours_of.
-PreparedPolyhedron prepared(const Polyhedron& polyhedron, bool convex,
-                            std::span<const std::uint32_t> neighbours) {
-  PreparedPolyhedron result;
-  result.points.reserve(polyhedron.vertices.size());
-  for (const Point3& vertex : polyhedron.vertices) result.points.push_back(hashed(vertex));
-  result.triples.reserve(polyhedron.facets.size());
-  for (const Facet& facet : polyhedron.facets) {
-    result.triples.push_back(spanning_triple(polyhedron, result.points, facet));
+// known: of the kind's first polyhedron. REQUIRES its points; of a mesh the planes are filled in.
+void complete(Kind& kind, PreparedPolyhedron& known) {
+  list_corners(kind);
+  kind.triples.reserve(kind.facet_count());
+  for (const Facet& facet : kind.first->facets) {
+    kind.triples.push_back(spanning_triple(*kind.first, known.points, facet));
   }
-  if (convex) return result;  // neighbours of a convex polytope are not coplanar
-  FlatSides flat_sides(polyhedron, result.points);
-  result.flat_sides.reserve(neighbours.size());
-  std::size_t side = 0;
-  for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
-    flat_sides.set_facet(polyhedron.facets[f], result.triples[f]);
-    for (std::size_t i = 0; i < polyhedron.facets[f].size(); ++i, ++side) {
-      result.flat_sides.push_back(flat_sides.is_flat(polyhedron.facets[neighbours[side]]));
+  if (!kind.convex) {
+    MeshPlanes(kind, known).find();
+    return;
+  }
+  // Neighbours of a convex polytope are not coplanar.
+  const std::vector<std::uint32_t> facets = facets_of_sides(kind);
+  kind.side_planes = opposite_sides(kind);
+  for (std::uint32_t& side : kind.side_planes) side = facets[side];
+}
+
+// The planes of a polyhedron of a known kind. A triple that spans well in one copy need not do so
+// in another.
+void set_planes(const Polyhedron& polyhedron, const Kind& kind, PreparedPolyhedron& known) {
+  // Of a normal: well-conditioned ones are known better.
+  constexpr double good = 0x1p-44;
+  known.planes.reserve(kind.plane_count());
+  for (std::size_t p = 0; p < kind.triples.size(); ++p) {
+    const auto [a, b, c] = kind.triples[p];
+    std::optional<PreparedPlane> plane =
+        quickly_prepared_plane(known.near_point(polyhedron, a), known.near_point(polyhedron, b),
+                               known.near_point(polyhedron, c));
+    if (!plane || plane->near.normal_error > good) {
+      Triple triple = kind.triples[p];
+      if (kind.convex) {
+        triple = spanning_triple(polyhedron, known.points, polyhedron.facets[p]);
+        if (known.triples.empty()) known.triples = kind.triples;
+        known.triples[p] = triple;
+      }
+      plane = plane_through_corners(polyhedron, known, triple);
     }
+    known.planes.push_back(*std::move(plane));
   }
-  return result;
+  for (const auto& [from, to, axis] : kind.planes_across) {
+    known.planes.push_back(
+        prepared_plane(known.near_point(polyhedron, from), known.near_point(polyhedron, to), axis));
+  }
 }
 
-// A plane through the side from p to q, not the facet's own: it contains the axis that the facet's
-// normal leans to most.
-Plane plane_across(const Plane& facet, const Homogeneous<Integer>& p,
-                   const Homogeneous<Integer>& q) {
-  const auto leans_more = [](const Integer& a, const Integer& b) {
-    return mpz_cmpabs(a.get_mpz_t(), b.get_mpz_t()) >= 0;
-  };
-  Homogeneous<Integer> along_axis = p;
-  if (leans_more(facet.a, facet.b) && leans_more(facet.a, facet.c)) {
-    along_axis.x += p.w;
-  } else if (leans_more(facet.b, facet.c)) {
-    along_axis.y += p.w;
-  } else {
-    along_axis.z += p.w;
-  }
-  return plane_through(p, q, along_axis);
-}
-
-SceneBounds bounds_of(const Scene& scene, unsigned threads) {
-  SceneBounds result;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.facets[axis].resize(scene.facets.size());
-    result.primitives[axis].resize(scene.primitives.size());
-  }
-  in_parallel_parts(threads, scene.facets.size(), [&](std::size_t f) {
-    std::array<Range, 3> bounds;
-    widen(bounds, scene.corners_of(scene.facets[f]));
-    for (std::size_t axis = 0; axis < 3; ++axis) result.facets[axis][f] = bounds[axis];
-  });
-  for (std::size_t f = 0; f < scene.facets.size(); ++f) {
+// Finds the points' doubles. An infinite error: coordinates that doubles cannot hold.
+void set_points(const Polyhedron& polyhedron, PreparedPolyhedron& known) {
+  known.points.reserve(polyhedron.vertices.size());
+  for (const Point3& vertex : polyhedron.vertices) {
+    const HashedPoint& point = known.points.emplace_back(hashed(vertex));
+    const std::array<double, 3> coordinates{point.near.x, point.near.y, point.near.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Range& bounds = result.facets[axis][f];
-      Range& whole = result.primitives[axis][scene.facets[f].primitive];
-      whole.lower = std::min(whole.lower, bounds.lower);
-      whole.upper = std::max(whole.upper, bounds.upper);
+      const double value = coordinates[axis];
+      if (!(std::abs(value) <= largest_coordinate && point.near.error <= largest_coordinate)) {
+        throw Error(ErrorId::NumberOutOfRange, {"a coordinate beyond 1e290", ""});
+      }
+      known.bounds[axis].lower = std::min(known.bounds[axis].lower, value);
+      known.bounds[axis].upper = std::max(known.bounds[axis].upper, value);
     }
   }
-  return result;
+}
+
+// to - from, if doubles can hold it. REQUIRES no coordinate beyond 1e290
+std::optional<double> exact_difference(double to, double from) {
+  // Knuth's sum of two numbers, with the part that rounding takes from it.
+  const double difference = to - from;
+  const double rounded_from = to - difference;
+  const double rounded_to = difference + rounded_from;
+  if ((to - rounded_to) + (rounded_from - from) != 0) return std::nullopt;
+  return difference;
+}
+
+// Whether one row of points is an image of the other under a translation; false as well if doubles
+// do not tell.
+bool is_translated(std::span<const ApproximatePoint> from, std::span<const HashedPoint> to) {
+  if (from.size() != to.size()) return false;
+  std::array<std::optional<double>, 3> translation;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const ApproximatePoint& p = from[i];
+    const ApproximatePoint& q = to[i].near;
+    if (p.error != 0 || q.error != 0) return false;
+    const std::array<std::optional<double>, 3> moved{
+        exact_difference(q.x, p.x), exact_difference(q.y, p.y), exact_difference(q.z, p.z)};
+    if (i == 0) translation = moved;
+    if (!moved[0] || !moved[1] || !moved[2] || moved != translation) return false;
+  }
+  return true;
 }
 
 class SceneBuilder {
@@ -226,57 +424,122 @@ class SceneBuilder {
     Scene scene{
         std::move(builder_).build(), std::move(primitives_), {}, {}, {}, {}, std::move(tree_), {}};
     scene.root = root_cell();
-    scene.corners.resize(corners_.size());
-    in_parallel_parts(threads, corners_.size(), [&](std::size_t i) {
-      const OrientedPlaneRef side_plane = scene.geometry.plane(corners_[i].side_plane);
-      scene.corners[i] = {corners_[i].point, side_plane.plane.table_index()};
+    scene.corners.resize(corner_count_);
+    scene.facets.resize(facet_count_);
+    for (std::size_t axis = 0; axis < 3; ++axis) scene.bounds.facets[axis].resize(facet_count_);
+    in_parallel(threads, Parts(facet_count_), [&](std::size_t, std::size_t begin, std::size_t end) {
+      fill_facets(scene, static_cast<FacetIndex>(begin), static_cast<FacetIndex>(end));
     });
-    give_up(corners_);
-    scene.facets.resize(facets_.size());
-    in_parallel_parts(threads, facets_.size(), [&](std::size_t f) {
-      scene.facets[f] = {facets_[f].primitive, facets_[f].corner_count == 0,
-                         scene.geometry.plane(facets_[f].plane), facets_[f].first_corner,
-                         facets_[f].corner_count};
-    });
-    give_up(facets_);
-    for (SceneFacet& facet : scene.facets) {
-      if (facet.is_half_space) add_half_space_polygon(scene, facet);
+    give_up(shapes_);
+    give_up(points_);
+    for (FacetIndex f = 0; f < facet_count_; ++f) {
+      if (scene.facets[f].is_half_space) add_half_space_polygon(scene, f);
     }
-    scene.bounds = bounds_of(scene, threads);
+    set_bounds_of_primitives(scene);
     return scene;
   }
 
  private:
-  struct PendingCorner {
-    PointId point;
-    std::uint32_t side_plane;
-  };
-  struct PendingFacet {
-    PrimitiveIndex primitive;
-    std::uint32_t plane;
-    std::uint32_t first_corner;
-    std::uint32_t corner_count;  // 0: a half-space
-  };
-
-  // What becomes of a primitive; it lasts as long as the solid.
+  // What becomes of a primitive, and what it is numbered by; it lasts as long as the solid.
   struct Shape {
     const HalfSpace* half_space = nullptr;  // null: the polyhedron
     std::shared_ptr<const Polyhedron> polyhedron;
     bool convex = true;
-    std::shared_ptr<const std::vector<std::uint32_t>> neighbours;  // while it is being added
+    std::shared_ptr<const Kind> kind{};
+    std::uint32_t first_plane = 0;   // as added
+    std::uint32_t first_corner = 0;  // in the scene
+    std::size_t first_point = 0;     // in points_
   };
+
+  // The facets of one shape after the other.
+  void fill_facets(Scene& scene, FacetIndex begin, FacetIndex end) const {
+    auto primitive = static_cast<PrimitiveIndex>(
+        std::upper_bound(scene.primitives.begin(), scene.primitives.end(), begin,
+                         [](FacetIndex f, const ScenePrimitive& p) { return f < p.first_facet; }) -
+        scene.primitives.begin() - 1);
+    for (FacetIndex f = begin; f < end; ++primitive) {
+      const ScenePrimitive& facets = scene.primitives[primitive];
+      const FacetIndex last = std::min(end, facets.first_facet + facets.facet_count);
+      for (; f < last; ++f) fill_facet(scene, primitive, f);
+    }
+  }
+
+  void fill_facet(Scene& scene, PrimitiveIndex primitive, FacetIndex f) const {
+    const Geometry& geometry = scene.geometry;
+    const std::span<const OrientedPlaneRef> planes = geometry.planes();
+    const Shape& shape = shapes_[primitive];
+    if (shape.half_space != nullptr) {
+      scene.facets[f] = {primitive, true, planes[shape.first_plane], 0, 0};
+      return;
+    }
+    const Kind& kind = *shape.kind;
+    const std::uint32_t own = f - scene.primitives[primitive].first_facet;
+    const std::uint32_t begin = kind.first_corners[own];
+    const std::uint32_t end = kind.first_corners[own + 1];
+    const std::uint32_t first = shape.first_corner + begin;
+    scene.facets[f] = {primitive, false, planes[shape.first_plane + kind.plane_of(own)], first,
+                       end - begin};
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const PlaneRef side = planes[shape.first_plane + kind.side_planes[i]].plane;
+      scene.corners[shape.first_corner + i] = {points_[shape.first_point + kind.corners[i]],
+                                               side.table_index()};
+    }
+    const std::array<Range, 3> bounds =
+        bounds_of(geometry, std::span(scene.corners).subspan(first, end - begin));
+    for (std::size_t axis = 0; axis < 3; ++axis) scene.bounds.facets[axis][f] = bounds[axis];
+  }
+
+  static std::array<Range, 3> bounds_of(const Geometry& geometry,
+                                        std::span<const PointCorner> corners) {
+    Range x;
+    Range y;
+    Range z;
+    double error = 0;
+    const auto include = [](Range& range, double value) {
+      range.lower = std::min(range.lower, value);
+      range.upper = std::max(range.upper, value);
+    };
+    for (const PointCorner& corner : corners) {
+      const ApproximatePoint& near = geometry.approximate(corner.point);
+      include(x, near.x);
+      include(y, near.y);
+      include(z, near.z);
+      error = std::max(error, near.error);
+    }
+    // Widened by two units in the last place, for the rounding of this very sum.
+    const auto widened = [error](const Range& range) -> Range {
+      const double slack = error + 0x1p-51 * std::max(std::abs(range.lower), std::abs(range.upper));
+      return {range.lower - slack, range.upper + slack};
+    };
+    return {widened(x), widened(y), widened(z)};
+  }
+
+  static void set_bounds_of_primitives(Scene& scene) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::vector<Range>& facets = scene.bounds.facets[axis];
+      for (const ScenePrimitive& primitive : scene.primitives) {
+        Range whole;
+        for (std::uint32_t f = 0; f < primitive.facet_count; ++f) {
+          const Range& bounds = facets[primitive.first_facet + f];
+          whole.lower = std::min(whole.lower, bounds.lower);
+          whole.upper = std::max(whole.upper, bounds.upper);
+        }
+        scene.bounds.primitives[axis].push_back(whole);
+      }
+    }
+  }
 
   PrimitiveIndex index_of(const Primitive& primitive) {
     const auto next = static_cast<PrimitiveIndex>(shapes_.size());
     std::shared_ptr<const Polyhedron> polyhedron = shared_polyhedron_of(primitive);
     if (polyhedron == nullptr) {
-      shapes_.push_back({&std::get<HalfSpace>(primitive.shape), nullptr, true, nullptr});
+      shapes_.push_back({&std::get<HalfSpace>(primitive.shape), nullptr});
       return next;
     }
     const auto [place, is_new] = known_.try_emplace(polyhedron.get(), next);
     if (is_new) {
       const bool convex = std::holds_alternative<ConvexPolytope>(primitive.shape);
-      shapes_.push_back({nullptr, std::move(polyhedron), convex, nullptr});
+      shapes_.push_back({nullptr, std::move(polyhedron), convex});
     }
     return place->second;
   }
@@ -292,57 +555,86 @@ class SceneBuilder {
   // Numbers points and planes in the order of the primitives. What can be found out of a primitive
   // by itself is found by several threads, of a few primitives at a time.
   void add_shapes(unsigned threads) {
+    make_room();
     const std::size_t at_a_time = threads == 1 ? 1 : 64;
-    std::vector<PreparedPolyhedron> some(at_a_time);
     for (std::size_t first = 0; first < shapes_.size(); first += at_a_time) {
       const auto shapes =
           std::span(shapes_).subspan(first, std::min(at_a_time, shapes_.size() - first));
-      find_neighbours(shapes, threads);
+      std::vector<PreparedPolyhedron> known(shapes.size());
       in_parallel(threads, shapes.size(), [&](std::size_t i) {
-        const Shape& shape = shapes[i];
-        if (shape.polyhedron)
-          some[i] = prepared(*shape.polyhedron, shape.convex, *shape.neighbours);
+        if (shapes[i].polyhedron) set_points(*shapes[i].polyhedron, known[i]);
+      });
+      set_kinds(shapes, known, threads);
+      in_parallel(threads, shapes.size(), [&](std::size_t i) {
+        if (!shapes[i].polyhedron || !known[i].planes.empty()) return;
+        set_planes(*shapes[i].polyhedron, *shapes[i].kind, known[i]);
       });
       for (std::size_t i = 0; i < shapes.size(); ++i) {
         if (shapes[i].polyhedron) {
-          builder_.add_owner(shapes[i].polyhedron);
-          add_polyhedron(shapes[i], some[i]);
+          add_polyhedron(shapes[i], known[i]);
         } else {
-          add_half_space(*shapes[i].half_space);
+          add_half_space(shapes[i]);
         }
-        shapes[i].neighbours.reset();
       }
     }
   }
 
-  // Copies of one shape follow one another in most models: their facets have the same vertices by
-  // number.
-  void find_neighbours(std::span<Shape> shapes, unsigned threads) {
-    struct Kind {
-      const Polyhedron* polyhedron;
-      std::shared_ptr<std::vector<std::uint32_t>> neighbours;
-    };
-    std::vector<Kind> new_kinds;
-    for (Shape& shape : shapes) {
+  void make_room() {
+    std::size_t points = 0;
+    std::size_t planes = 0;
+    std::size_t corners = 0;
+    for (const Shape& shape : shapes_) {
       if (!shape.polyhedron) continue;
-      if (last_kind_ == nullptr || last_kind_->facets != shape.polyhedron->facets) {
-        last_kind_ = shape.polyhedron;
-        new_kinds.push_back(
-            {shape.polyhedron.get(), std::make_shared<std::vector<std::uint32_t>>()});
-        last_neighbours_ = new_kinds.back().neighbours;
-      }
-      shape.neighbours = last_neighbours_;
+      points += shape.polyhedron->vertices.size();
+      planes += shape.polyhedron->facets.size();
+      for (const Facet& facet : shape.polyhedron->facets) corners += facet.size();
     }
-    in_parallel(threads, new_kinds.size(), [&](std::size_t i) {
-      *new_kinds[i].neighbours = neighbours_of(*new_kinds[i].polyhedron);
-    });
+    builder_.reserve(points, planes, corners);
+    points_.reserve(points);
+    primitives_.reserve(shapes_.size());
   }
 
-  void add_half_space(const HalfSpace& half_space) {
-    const auto index = static_cast<PrimitiveIndex>(primitives_.size());
-    primitives_.push_back({true, static_cast<FacetIndex>(facets_.size()), 1});
-    facets_.push_back({index, builder_.add_plane(half_space.plane), 0, 0});
-    const Plane& plane = half_space.plane;
+  // Copies of one shape follow one another in most models.
+  void set_kinds(std::span<Shape> shapes, std::span<PreparedPolyhedron> known, unsigned threads) {
+    struct NewKind {
+      std::shared_ptr<Kind> kind;
+      PreparedPolyhedron* known;
+    };
+    std::vector<NewKind> new_kinds;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      if (!shapes[i].polyhedron) continue;
+      if (!last_kind_ || !is_of_kind(shapes[i], known[i], *last_kind_)) {
+        last_kind_ = new_kind(shapes[i], known[i]);
+        new_kinds.push_back({last_kind_, &known[i]});
+      }
+      shapes[i].kind = last_kind_;
+    }
+    in_parallel(threads, new_kinds.size(),
+                [&](std::size_t i) { complete(*new_kinds[i].kind, *new_kinds[i].known); });
+  }
+
+  static bool is_of_kind(const Shape& shape, const PreparedPolyhedron& known, const Kind& kind) {
+    return shape.convex == kind.convex && shape.polyhedron->facets == kind.first->facets &&
+           (kind.convex || is_translated(kind.near, known.points));
+  }
+
+  // Of this shape, still to be completed.
+  static std::shared_ptr<Kind> new_kind(const Shape& shape, const PreparedPolyhedron& known) {
+    auto kind = std::make_shared<Kind>();
+    kind->first = shape.polyhedron;
+    kind->convex = shape.convex;
+    if (!kind->convex) {
+      kind->near.reserve(known.points.size());
+      for (const HashedPoint& point : known.points) kind->near.push_back(point.near);
+    }
+    return kind;
+  }
+
+  void add_half_space(Shape& shape) {
+    const Plane& plane = shape.half_space->plane;
+    primitives_.push_back({true, facet_count_++, 1});
+    shape.first_plane = builder_.add_plane(plane);
+    ++plane_count_;
     for (const Integer* n : {&plane.a, &plane.b, &plane.c}) {
       largest_normal_ = std::max(largest_normal_, std::abs(n->get_d()));
     }
@@ -350,61 +642,39 @@ class SceneBuilder {
     has_half_spaces_ = true;
   }
 
-  void add_polyhedron(const Shape& shape, const PreparedPolyhedron& known) {
+  void add_polyhedron(Shape& shape, PreparedPolyhedron& known) {
     const Polyhedron& polyhedron = *shape.polyhedron;
-    const std::vector<std::uint32_t>& neighbours = *shape.neighbours;
-    const auto index = static_cast<PrimitiveIndex>(primitives_.size());
-    primitives_.push_back({shape.convex, static_cast<FacetIndex>(facets_.size()),
-                           static_cast<std::uint32_t>(polyhedron.facets.size())});
-    std::vector<PointId> points;
-    points.reserve(polyhedron.vertices.size());
-    for (std::size_t v = 0; v < polyhedron.vertices.size(); ++v) {
-      points.push_back(builder_.add_owned_point(polyhedron.vertices[v], known.points[v]));
-      extend_bounds(known.points[v].near);
-    }
-    std::vector<std::uint32_t> planes;
-    planes.reserve(polyhedron.facets.size());
-    for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
-      const auto [a, b, c] = known.triples[f];
-      planes.push_back(builder_.add_plane(points[a], points[b], points[c]));
-      for (const std::uint32_t v : polyhedron.facets[f]) {
-        if (v != a && v != b && v != c) builder_.add_incidence(points[v], planes.back());
-      }
-    }
-    std::size_t side = 0;
-    for (std::uint32_t f = 0; f < polyhedron.facets.size(); ++f) {
-      const Facet& facet = polyhedron.facets[f];
-      facets_.push_back({index, planes[f], static_cast<std::uint32_t>(corners_.size()),
-                         static_cast<std::uint32_t>(facet.size())});
-      for (std::size_t i = 0; i < facet.size(); ++i, ++side) {
-        const std::uint32_t from = facet[i];
-        const std::uint32_t to = facet[(i + 1) % facet.size()];
-        const bool flat = !known.flat_sides.empty() && known.flat_sides[side];
-        corners_.push_back(
-            {points[from], flat ? plane_across_side(polyhedron, known.triples[f], from, to)
-                                : planes[neighbours[side]]});
-      }
-    }
-  }
-
-  std::uint32_t plane_across_side(const Polyhedron& polyhedron,
-                                  const std::array<std::uint32_t, 3>& triple, std::uint32_t from,
-                                  std::uint32_t to) {
-    const auto corner = [&](std::uint32_t v) { return homogeneous_of(polyhedron.vertices[v]); };
-    const Plane own = plane_through(corner(triple[0]), corner(triple[1]), corner(triple[2]));
-    return builder_.add_plane(plane_across(own, corner(from), corner(to)));
-  }
-
-  // An infinite error: coordinates that doubles cannot hold.
-  void extend_bounds(const ApproximatePoint& near) {
-    const std::array<double, 3> coordinates{near.x, near.y, near.z};
+    const Kind& kind = *shape.kind;
+    primitives_.push_back({shape.convex, facet_count_, kind.facet_count()});
+    facet_count_ += kind.facet_count();
+    shape.first_corner = corner_count_;
+    corner_count_ += static_cast<std::uint32_t>(kind.corners.size());
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double value = coordinates[axis];
-      if (!(std::abs(value) <= largest_coordinate && near.error <= largest_coordinate)) {
-        throw Error(ErrorId::NumberOutOfRange, {"a coordinate beyond 1e290", ""});
-      }
-      lower_[axis] = std::min(lower_[axis], value);
-      upper_[axis] = std::max(upper_[axis], value);
+      lower_[axis] = std::min(lower_[axis], known.bounds[axis].lower);
+      upper_[axis] = std::max(upper_[axis], known.bounds[axis].upper);
+    }
+    builder_.add_owner(shape.polyhedron);
+    shape.first_point = points_.size();
+    for (std::size_t v = 0; v < known.points.size(); ++v) {
+      points_.push_back(builder_.add_owned_point(polyhedron.vertices[v], known.points[v]));
+    }
+    const auto point = [&](std::uint32_t v) { return points_[shape.first_point + v]; };
+    shape.first_plane = plane_count_;
+    plane_count_ += kind.plane_count();
+    const std::vector<Triple>& triples = known.triples.empty() ? kind.triples : known.triples;
+    auto plane = known.planes.begin();
+    for (const auto& [a, b, c] : triples) {
+      builder_.add_plane(std::move(*plane++), point(a), point(b), point(c));
+    }
+    for (std::uint32_t f = 0; f < kind.facet_count(); ++f) {
+      const std::uint32_t added = shape.first_plane + kind.plane_of(f);
+      for (const std::uint32_t v : kind.corners_of(f)) builder_.add_incidence(point(v), added);
+    }
+    for (const auto& [from, to, axis] : kind.planes_across) {
+      const std::uint32_t added =
+          builder_.add_plane(std::move(*plane++), point(from), point(to), axis);
+      builder_.add_incidence(point(from), added);
+      builder_.add_incidence(point(to), added);
     }
   }
 
@@ -433,11 +703,15 @@ class SceneBuilder {
     return cell;
   }
 
-  static void add_half_space_polygon(Scene& scene, SceneFacet& facet) {
+  static void add_half_space_polygon(Scene& scene, FacetIndex f) {
+    SceneFacet& facet = scene.facets[f];
     facet.first_corner = static_cast<std::uint32_t>(scene.half_space_corners.size());
     append_half_space_polygon(scene, facet.plane);
     facet.corner_count =
         static_cast<std::uint32_t>(scene.half_space_corners.size()) - facet.first_corner;
+    std::array<Range, 3> bounds;
+    widen(bounds, scene.corners_of(facet));
+    for (std::size_t axis = 0; axis < 3; ++axis) scene.bounds.facets[axis][f] = bounds[axis];
   }
 
   // The plane clipped to the root cell: a parallelogram between the walls of the two axes that the
@@ -483,11 +757,12 @@ class SceneBuilder {
   std::vector<Shape> shapes_;
   Geometry::Builder builder_;
   std::vector<ScenePrimitive> primitives_;
-  std::vector<PendingFacet> facets_;
-  std::vector<PendingCorner> corners_;
+  std::vector<PointId> points_;  // of the vertices of all shapes in turn
+  FacetIndex facet_count_ = 0;
+  std::uint32_t corner_count_ = 0;
+  std::uint32_t plane_count_ = 0;  // as added
   std::unordered_map<const Polyhedron*, PrimitiveIndex> known_;
-  std::shared_ptr<const Polyhedron> last_kind_;
-  std::shared_ptr<const std::vector<std::uint32_t>> last_neighbours_;
+  std::shared_ptr<Kind> last_kind_;
   std::array<double, 3> lower_{std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::infinity()};
