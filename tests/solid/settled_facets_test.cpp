@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Facets and edges that bypass merging against the same solids written so that none does: each body in parts,
-// whose facets share planes. LAW boundary.1. On a small grid every way of touching occurs.
+// Facets and edges that bypass merging against the same solids written so that none does: each body
+// in parts, whose facets share planes. LAW boundary.1. On a small grid every way of touching
+// occurs.
 #include <gtest/gtest.h>
 
 #include <random>

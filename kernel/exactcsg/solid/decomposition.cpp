@@ -19,6 +19,7 @@ using csg::Membership;
 
 constexpr std::uint32_t depth_limit = 4000;
 constexpr std::size_t sample_size = 128;
+constexpr std::size_t sample_of_middles = 16;  // of it
 
 // How many divisions in a row may hardly separate anything before the cell is evaluated as it is.
 // Evaluation costs at least the square of the facets (measured: bevel gears of 240 meshes went from
@@ -531,10 +532,10 @@ double predicted_cost(const FacetSample& sample, std::size_t axis, double positi
 
 // Two successive different middles of facets, near the median.
 std::optional<Range> gap_at_median(std::span<const double> lower, std::span<const double> upper) {
-  std::array<double, sample_size> store;
-  const std::span<double> middles(store.data(), lower.size());
-  for (std::size_t i = 0; i < lower.size(); ++i) {
-    middles[i] = lower[i] + (upper[i] - lower[i]) / 2;
+  boost::container::static_vector<double, sample_of_middles> middles;
+  const std::size_t step = (lower.size() + sample_of_middles - 1) / sample_of_middles;
+  for (std::size_t i = 0; i < lower.size(); i += step) {
+    middles.push_back(lower[i] + (upper[i] - lower[i]) / 2);
   }
   const auto median = middles.begin() + static_cast<std::ptrdiff_t>(middles.size() / 2);
   std::nth_element(middles.begin(), median, middles.end());
