@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "exactcsg/number/geometry.hpp"
-#include "exactcsg/number/homogeneous.hpp"
+#include "exactcsg/number/line_meeting.hpp"
 #include "number/reference.hpp"
 
 namespace exactcsg {
@@ -19,7 +19,8 @@ class RandomPoints {
  public:
   explicit RandomPoints(std::uint64_t seed) : random_(seed) {}
 
-  // Small integers, so that coordinates agree now and then, decimals, or long fractions.
+  // Small integers, so that coordinates agree now and then, decimals, or ever longer fractions; the
+  // last ones have denominators whose odd parts are longer than a limb.
   Point3 operator()(int kind) { return {number(kind), number(kind), number(kind)}; }
 
  private:
@@ -29,6 +30,7 @@ class RandomPoints {
     Rational result(below(2000001) - 1000000, kind == 1 ? 1000 : 1 + below(1000000));
     if (kind == 3) result = result * result + Rational(below(1000), 1L << below(60));
     result.canonicalize();
+    for (; kind >= 4; --kind) result *= result;
     return result;
   }
 
@@ -41,7 +43,7 @@ TEST(MeetingPoint, OfALineAndAPlane) {
   int compared = 0;
   for (int round = 0; round < 4000; ++round) {
     std::array<Point3, 5> points;
-    for (Point3& point : points) point = random(round % 4);
+    for (Point3& point : points) point = random(round % 6);
     auto& [p, q, a, b, c] = points;
     // A plane across an axis now and then.
     if (round % 5 == 0) a.z = b.z = c.z;
@@ -54,16 +56,27 @@ TEST(MeetingPoint, OfALineAndAPlane) {
     const auto third = reference::plane_through(a, b, c);
     if (reference::determinant(first, second, third) == 0) continue;
     ++compared;
-    EXPECT_EQ(
-        meeting_point_of_line(p, homogeneous_of(p), homogeneous_of(q), plane_through(a, b, c)),
-        reference::meeting_point(first, second, third));
+    const Point3 expected = reference::meeting_point(first, second, third);
+    const PointView by_points = meeting_point_of_line(p, q, plane_form_through(a, b, c));
+    EXPECT_EQ(point_of(by_points), expected);
+    const PlaneForm by_coefficients = plane_form_of(plane_through(a, b, c));
+    EXPECT_EQ(point_of(meeting_point_of_line(p, q, by_coefficients)), expected);
   }
   EXPECT_GT(compared, 2000);
 }
 
+// The views of exact points, with the nearest doubles of all coordinates.
+void expect_near_point(const NearPointView& found, const Point3& expected) {
+  EXPECT_EQ(point_of(found.exact), expected);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(found.nearest[axis], nearest_double(coordinate(expected, axis)));
+  }
+}
+
+// Coordinates that the edge or the plane has in common are copied from input points.
 TEST(MeetingPoint, OfAnEdgeAlongAnAxis) {
   RandomPoints random(3);
-  int copied = 0;
+  int compared = 0;
   for (int round = 0; round < 600; ++round) {
     const Point3 p = random(round % 4);
     Point3 q = p;
@@ -76,17 +89,31 @@ TEST(MeetingPoint, OfAnEdgeAlongAnAxis) {
     if (across == 0) a.x = b.x = c.x;
     if (across == 1) a.y = b.y = c.y;
     if (across == 2) a.z = b.z = c.z;
-    const auto first = reference::plane_through(p, q, random(0));
-    const auto second = reference::plane_through(p, q, random(0));
+    const Point3 r = random(0);
+    const Point3 s = random(0);
+    const auto first = reference::plane_through(p, q, r);
+    const auto second = reference::plane_through(p, q, s);
     const auto third = reference::plane_through(a, b, c);
     if (reference::determinant(first, second, third) == 0) continue;
-    const auto found = copied_meeting_point(p, q, plane_through(a, b, c));
-    EXPECT_EQ(found.has_value(), across == round % 3);
-    if (!found) continue;
-    ++copied;
-    EXPECT_EQ(*found, reference::meeting_point(first, second, third));
+    ++compared;
+    Geometry::Builder builder;
+    const PointId from = builder.add_point(p);
+    const PointId to = builder.add_point(q);
+    builder.add_plane(from, to, builder.add_point(r));
+    builder.add_plane(from, to, builder.add_point(s));
+    // By its coefficients, so that no point of the plane is known, now and then.
+    if (round % 2 == 0) {
+      builder.add_plane(builder.add_point(a), builder.add_point(b), builder.add_point(c));
+    } else {
+      builder.add_plane(plane_through(a, b, c));
+    }
+    const Geometry geometry = std::move(builder).build();
+    const auto plane = [&](std::uint32_t i) { return geometry.plane(i).plane; };
+    expect_near_point(geometry.exact_view(geometry.meet(plane(0), plane(1), plane(2))),
+                      reference::meeting_point(first, second, third));
+    expect_near_point(geometry.exact_view(geometry.vertex(from)), p);
   }
-  EXPECT_GT(copied, 200);
+  EXPECT_GT(compared, 300);
 }
 
 TEST(MeetingPoint, OfFacetsOfTetrahedra) {
@@ -115,8 +142,10 @@ TEST(MeetingPoint, OfFacetsOfTetrahedra) {
         for (std::size_t k = 0; k < j; ++k) {
           if (reference::determinant(exact[i], exact[j], exact[k]) == 0) continue;
           ++compared;
-          EXPECT_EQ(geometry.exact_point(geometry.meet(plane(i), plane(j), plane(k))),
-                    reference::meeting_point(exact[i], exact[j], exact[k]));
+          const Vertex v = geometry.meet(plane(i), plane(j), plane(k));
+          const Point3 expected = reference::meeting_point(exact[i], exact[j], exact[k]);
+          EXPECT_EQ(geometry.exact_point(v), expected);
+          expect_near_point(geometry.exact_view(v), expected);
         }
         // An edge and a wall.
         const PlaneRef wall = PlaneRef::of_wall(Axis::Y, 0.75);

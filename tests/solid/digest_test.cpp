@@ -17,6 +17,24 @@ TEST(Digest, UnitCubeAsADocumentReaderRecomputesIt) {
             "5fc5968064ce6f99d77bad4c023810045ff2d2390f8d9aaba46175ca7b531b67");
 }
 
+// By the same program with the corners of a box that is not a cube, and `format(numerator, "x")`,
+// "/" and the same of the denominator, unless that is 1, for each coordinate: numbers of several
+// limbs that show every digit, and denominators of all kinds.
+TEST(Digest, LongNumbersAsADocumentReaderRecomputesThem) {
+  const auto hexadecimal = [](const char* numerator, const char* denominator) {
+    Rational value(Integer(numerator, 16), Integer(denominator, 16));
+    value.canonicalize();
+    return value;
+  };
+  const Point3 low{hexadecimal("-123456789abcdef0fedcba9876543210a5", "7"), 0,
+                   hexadecimal("1", "400000000000000000")};
+  const Point3 high{hexadecimal("10", "3"),
+                    hexadecimal("fedcba98765432100123456789abcdef", "abcdef0123456789b"),
+                    hexadecimal("deadbeef0badf00d00000000000000000000001", "8")};
+  EXPECT_EQ(digest(boundary_of(*make_box(low, high).polyhedron)),
+            "36b50d345949b2519a6295507a115c3b37bbdec0f609e9d5a88cfd29b2f8a493");
+}
+
 // sha256sum of "exactcsg.boundary/3\nvertices 0\nedges 0\nplanes 0\nsides 0\n"
 TEST(Digest, TheEmptySolid) {
   EXPECT_EQ(digest(Boundary{}), "7136f9c332a27f3f2a34a7fcaf8a91b98783e3f429c9a593a1304b5bc8ce68b6");

@@ -52,9 +52,10 @@ Shape shape_of(const RationalView& value) {
           binary ? value.exponent : value.denominator.size()};
 }
 
-bool is_short(const Shape& shape) {
-  return shape.numerator >> short_numerator_bits == 0 &&
-         shape.denominator >> short_denominator_bits == 0;
+bool are_short(const Shapes& shapes) {
+  const auto& [x, y, z] = shapes;
+  return (x.numerator | y.numerator | z.numerator) >> short_numerator_bits == 0 &&
+         (x.denominator | y.denominator | z.denominator) >> short_denominator_bits == 0;
 }
 
 std::size_t limbs_of(const Shape& shape) {
@@ -122,10 +123,9 @@ PointView ExactPoints::view(std::size_t i) const {
   return {next(0), next(1), next(2)};
 }
 
-void ExactPoints::push_back(const Point3& point) {
-  const PointView view = view_of(point);
+void ExactPoints::push_back(const PointView& view) {
   const Shapes shapes{shape_of(view[0]), shape_of(view[1]), shape_of(view[2])};
-  const bool short_header = std::all_of(shapes.begin(), shapes.end(), is_short);
+  const bool short_header = are_short(shapes);
   mp_limb_t* to = allocate((short_header ? 1 : 4) + limbs_of(shapes));
   records_.push_back(to);
   mp_limb_t& header = *to++;

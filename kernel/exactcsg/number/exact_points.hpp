@@ -74,7 +74,8 @@ class ExactPoints {
   PointView view(std::size_t i) const;
 
   void reserve(std::size_t points) { records_.reserve(points); }
-  void push_back(const Point3& point);
+  void push_back(const Point3& point) { push_back(view_of(point)); }
+  void push_back(const PointView& point);
   // The points of `others` after those that are here. COST: 8 bytes a point: blocks are taken over
   void append(ExactPoints&& others);
   // Point i becomes what was point order[i]. REQUIRES numbers of points; blocks are kept, so that

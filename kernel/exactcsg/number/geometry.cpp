@@ -2,9 +2,12 @@
 #include "exactcsg/number/geometry.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "exactcsg/number/geometry_data.hpp"
+#include "exactcsg/number/line_meeting.hpp"
 #include "exactcsg/number/meet.hpp"
+#include "exactcsg/number/rounding.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -71,22 +74,90 @@ Plane Geometry::exact_plane_value(PlaneRef plane) const {
 
 const Point3& Geometry::point(PointId id) const { return data_->points.exact(id); }
 
-Point3 Geometry::exact_point(const Vertex& v) const {
-  if (v.is_point) return point(v.point);
+namespace {
+
+double coordinate(const ApproximatePoint& p, std::size_t axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+// A coordinate of an input point, whose doubles are the nearest ones already.
+void copy_coordinate(const Geometry::Data& data, PointId id, std::size_t axis,
+                     NearPointView& result) {
+  const ApproximatePoint& near = data.points.approximate(id);
+  RationalView& exact = result.exact[axis];
+  exact = view_of(exactcsg::coordinate(data.points.exact(id), axis));
+  result.nearest[axis] =
+      std::isfinite(near.error) ? coordinate(near, axis) : round_to_nearest(exact).value;
+}
+
+bool agree(const Geometry::Data& data, const PointPair& line, std::size_t axis) {
+  const ApproximatePoint& p = data.points.approximate(line.first);
+  const ApproximatePoint& q = data.points.approximate(line.second);
+  if (coordinate(p, axis) != coordinate(q, axis)) return false;
+  if (p.error == 0 && q.error == 0) return true;
+  return exactcsg::coordinate(data.points.exact(line.first), axis) ==
+         exactcsg::coordinate(data.points.exact(line.second), axis);
+}
+
+// A point of a plane whose coordinate along the axis is that of all points of the plane, if one is
+// known.
+std::optional<PointId> point_across(const Geometry::Data& data, std::uint32_t plane,
+                                    std::size_t axis) {
+  if (exact_axis(data.planes.approximate()[plane]) != static_cast<Axis>(axis)) return std::nullopt;
+  const auto points = data.points_of_planes.row(plane);
+  if (points.empty()) return std::nullopt;
+  return PointId{points.front()};
+}
+
+// Where a line through two input points meets a plane.
+NearPointView meet_line(const Geometry::Data& data, const PointPair& line, std::uint32_t plane) {
+  NearPointView result;
+  std::array<bool, 3> copied{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::optional<PointId> source;
+    if (agree(data, line, axis)) {
+      source = line.first;
+    } else {
+      source = point_across(data, plane, axis);
+    }
+    if (!source) continue;
+    copy_coordinate(data, *source, axis, result);
+    copied[axis] = true;
+  }
+  if (copied[0] && copied[1] && copied[2]) return result;
+  const PointView met = meeting_point_of_line(data.points.exact(line.first),
+                                              data.points.exact(line.second), data.form(plane));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (copied[axis]) continue;
+    result.exact[axis] = met[axis];
+    result.nearest[axis] = round_to_nearest(met[axis]).value;
+  }
+  return result;
+}
+
+}  // namespace
+
+NearPointView Geometry::exact_view(const Vertex& v) const {
+  NearPointView result;
+  if (v.is_point) {
+    for (std::size_t axis = 0; axis < 3; ++axis) copy_coordinate(*data_, v.point, axis, result);
+    return result;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const PlaneRef plane = v.planes[i];
     if (plane.is_wall()) continue;
     if (const auto line = common_points(*data_, v.planes[(i + 1) % 3], v.planes[(i + 2) % 3])) {
-      const Point3& first = point(line->first);
-      if (auto copied = copied_meeting_point(first, point(line->second), exact_plane(plane))) {
-        return *std::move(copied);
-      }
-      return meeting_point_of_line(first, data_->homogeneous(line->first),
-                                   data_->homogeneous(line->second), exact_plane(plane));
+      return meet_line(*data_, *line, plane.table_index());
     }
   }
   const auto [p, q, r] = data_->operands(v);
-  return point_of(meeting_point(load<Integer>(p), load<Integer>(q), load<Integer>(r)));
+  thread_local Point3 met;
+  met = point_of(meeting_point(load<Integer>(p), load<Integer>(q), load<Integer>(r)));
+  result.exact = view_of(met);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.nearest[axis] = round_to_nearest(result.exact[axis]).value;
+  }
+  return result;
 }
 
 namespace {

@@ -18,6 +18,7 @@
 //
 // Exact. Source: DESIGN section 3 (docs/exactness.md); the tiers after google/s2geometry.
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <compare>
@@ -26,6 +27,7 @@
 #include <span>
 
 #include "exactcsg/number/point.hpp"
+#include "exactcsg/number/rational_view.hpp"
 #include "exactcsg/number/tier_statistics.hpp"
 
 namespace exactcsg {
@@ -132,6 +134,12 @@ inline Vertex vertex_of(PointId id, const ApproximatePoint& near) {
   return v;
 }
 
+// An exact point as it lies in memory, and its nearest doubles.
+struct NearPointView {
+  PointView exact;
+  std::array<double, 3> nearest;
+};
+
 class Geometry {
  public:
   class Builder;
@@ -149,7 +157,9 @@ class Geometry {
   const Plane& exact_plane(PlaneRef plane) const;  // REQUIRES !plane.is_wall()
   Plane exact_plane_value(PlaneRef plane) const;   // any
   const Point3& point(PointId id) const;
-  Point3 exact_point(const Vertex& v) const;
+  Point3 exact_point(const Vertex& v) const { return point_of(exact_view(v).exact); }
+  // The same, of limbs that last until the thread calls this again. COST: less than of the point
+  NearPointView exact_view(const Vertex& v) const;
 
   Vertex vertex(PointId id) const {
     return vertex_of(id, approximate_points_[static_cast<std::size_t>(id)]);

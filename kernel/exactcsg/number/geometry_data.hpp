@@ -45,6 +45,7 @@ struct Geometry::Data {
     return homogeneous_points.get(static_cast<std::size_t>(id),
                                   [&] { return homogeneous_of(points.exact(id)); });
   }
+  const PlaneForm& form(std::uint32_t plane) const { return planes.form(points, plane); }
   PlaneOperand operand(PlaneRef plane) const {
     return plane.is_wall() ? operand_of_wall(plane.wall_axis(), plane.wall_position())
                            : operand_of(exact(plane.table_index()));

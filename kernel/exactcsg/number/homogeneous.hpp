@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <optional>
 
 #include "exactcsg/number/exact_tiers.hpp"
 #include "exactcsg/number/geometry.hpp"
@@ -36,17 +35,6 @@ Homogeneous<Integer> homogeneous_of(const Point3& point);
 
 // REQUIRES p.w != 0
 Point3 point_of(const Homogeneous<Integer>& p);
-
-// Where the line through two points meets a plane; `p` is the first of them. REQUIRES p != q, and
-// that the line is not parallel to the plane. COST: much less than of three planes: points are
-// shorter than planes. Coordinates that the line or the plane has in common with p or with all of
-// the plane are copied.
-Point3 meeting_point_of_line(const Point3& p, const Homogeneous<Integer>& homogeneous_p,
-                             const Homogeneous<Integer>& homogeneous_q, const Plane& plane);
-
-// The same if every coordinate is one that the line or the plane has in common, nullopt if not: an
-// edge along an axis, and a plane across that. COST: O(1), nothing is computed
-std::optional<Point3> copied_meeting_point(const Point3& p, const Point3& q, const Plane& plane);
 
 // The point moved up along the axis by one.
 Homogeneous<Integer> moved_along_axis(Homogeneous<Integer> point, Axis axis);

@@ -32,6 +32,9 @@ class LazyTable {
     delete entries_[i].exchange(value.release(), std::memory_order_acq_rel);
   }
 
+  // Entry i if it is known.
+  const T* known(std::size_t i) const { return entries_[i].load(std::memory_order_acquire); }
+
   // `compute()` returns the value. The reference lives as long as the table.
   template <class Compute>
   const T& get(std::size_t i, const Compute& compute) const {

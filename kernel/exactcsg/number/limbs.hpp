@@ -27,6 +27,13 @@ inline bool is_power_of_two(LimbSpan limbs) {
                      [](mp_limb_t limb) { return limb == 0; });
 }
 
+// The number of zeros below the lowest one. REQUIRES a value that is not zero
+inline long count_low_zeros(LimbSpan limbs) {
+  std::size_t i = 0;
+  while (limbs[i] == 0) ++i;
+  return static_cast<long>(i) * GMP_NUMB_BITS + std::countr_zero(limbs[i]);
+}
+
 // The first 64 bits of a magnitude, the first of them set, and the length of the whole in bits.
 struct Head {
   std::uint64_t bits;

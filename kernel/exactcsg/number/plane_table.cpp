@@ -41,7 +41,7 @@ void AddedPlanes::sharpen(const PointTable& points, std::uint32_t i) {
 }
 
 PlaneTable::PlaneTable(AddedPlanes&& added, const std::vector<std::uint32_t>& members)
-    : exact_(members.size()) {
+    : exact_(members.size()), forms_(members.size()) {
   give_up(added.keys_);
   for (auto& [index, plane] : added.exact_) {
     const auto place = std::lower_bound(members.begin(), members.end(), index);
@@ -58,6 +58,23 @@ PlaneTable::PlaneTable(AddedPlanes&& added, const std::vector<std::uint32_t>& me
   }
   approximate_.resize(members.size());
   points_.resize(members.size());
+}
+
+PlaneForm PlanePoints::form(const PointTable& points) const {
+  const Point3& p = points.exact(first_);
+  const Point3& q = points.exact(second_);
+  if (third_ < first_axis) return plane_form_through(p, q, points.exact(PointId{third_}));
+  const std::uint32_t axis = third_ - first_axis;
+  Point3 above = p;
+  (axis == 0 ? above.x : axis == 1 ? above.y : above.z) += 1;
+  return plane_form_through(p, q, above);
+}
+
+const PlaneForm& PlaneTable::form(const PointTable& points, std::uint32_t i) const {
+  return forms_.get(i, [&] {
+    if (const Plane* plane = exact_.known(i)) return plane_form_of(*plane);
+    return points_[i].form(points);
+  });
 }
 
 }  // namespace exactcsg

@@ -15,6 +15,7 @@
 #include "exactcsg/number/approximate_plane.hpp"
 #include "exactcsg/number/homogeneous.hpp"
 #include "exactcsg/number/lazy_table.hpp"
+#include "exactcsg/number/line_meeting.hpp"
 #include "exactcsg/number/point_table.hpp"
 #include "exactcsg/number/prepared_plane.hpp"
 
@@ -50,6 +51,8 @@ class PlanePoints {
     const auto [p, q, r] = homogeneous(of_point);
     return plane_through(p, q, r);
   }
+  // Likewise, of any length.
+  PlaneForm form(const PointTable& points) const;
 
  private:
   static constexpr std::uint32_t nothing = ~std::uint32_t{0};
@@ -99,11 +102,14 @@ class PlaneTable {
   const Plane& exact(const HomogeneousOfPoint& homogeneous, std::uint32_t i) const {
     return exact_.get(i, [&] { return points_[i].plane(homogeneous); });
   }
+  // What lines are met with: takes less than the exact coefficients, if those are not known.
+  const PlaneForm& form(const PointTable& points, std::uint32_t i) const;
 
  private:
   std::vector<ApproximatePlane> approximate_;
   std::vector<PlanePoints> points_;  // that a plane is made from; none, if it was given
   LazyTable<Plane> exact_;
+  LazyTable<PlaneForm> forms_;
 };
 
 }  // namespace exactcsg

@@ -2,6 +2,7 @@
 #include "exactcsg/number/rational_view.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 
 #include "exactcsg/number/limbs.hpp"
@@ -95,20 +96,22 @@ std::strong_ordering compare_magnitudes(const RationalView& a, const RationalVie
 
 }  // namespace
 
-RationalView view_of(const Rational& value) {
+RationalView view_of(const Integer& numerator, const Integer& denominator) {
   RationalView view;
-  view.numerator = limbs_of(value.get_num());
-  view.negative = sgn(value) < 0;
-  const LimbSpan denominator = limbs_of(value.get_den());
-  const mp_bitcnt_t length = mpz_sizeinbase(value.get_den_mpz_t(), 2);
-  constexpr mp_bitcnt_t longest_exponent = mp_bitcnt_t{1} << 31U;
-  if (is_power_of_two(denominator) && length <= longest_exponent) {
-    view.exponent = length - 1;
+  view.numerator = limbs_of(numerator);
+  view.negative = sgn(numerator) < 0;
+  const LimbSpan limbs = limbs_of(denominator);
+  constexpr std::size_t longest_exponent = std::size_t{1} << 31U;
+  if (is_power_of_two(limbs) && limbs.size() <= longest_exponent / GMP_NUMB_BITS) {
+    view.exponent = GMP_NUMB_BITS * (limbs.size() - 1) +
+                    static_cast<mp_bitcnt_t>(std::countr_zero(limbs.back()));
   } else {
-    view.denominator = denominator;
+    view.denominator = limbs;
   }
   return view;
 }
+
+RationalView view_of(const Rational& value) { return view_of(value.get_num(), value.get_den()); }
 
 PointView view_of(const Point3& point) {
   return {view_of(point.x), view_of(point.y), view_of(point.z)};

@@ -33,6 +33,8 @@ using PointView = std::array<RationalView, 3>;  // x, y, z
 
 // Of a value that outlives the view.
 RationalView view_of(const Rational& value);
+// REQUIRES numerator / denominator in lowest terms, denominator > 0
+RationalView view_of(const Integer& numerator, const Integer& denominator);
 PointView view_of(const Point3& point);
 
 // Sets `result` to the value. COST: no allocation if it has room

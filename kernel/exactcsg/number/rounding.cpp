@@ -24,18 +24,20 @@ struct Leading {
   long shift;
 };
 
-// |numerator| * 2^-shift. REQUIRES numerator != 0
-Leading leading_bits(const Integer& numerator, const Head& head, long shift) {
+// numerator * 2^-shift. REQUIRES numerator != 0
+Leading leading_bits(LimbSpan numerator, const Head& head, long shift) {
   const long cut = head.length - 64;
-  const bool cut_off = cut > 0 && static_cast<long>(mpz_scan1(numerator.get_mpz_t(), 0)) < cut;
+  const bool cut_off = cut > 0 && count_low_zeros(numerator) < cut;
   return {head.bits | (cut_off ? 1U : 0U), shift - cut};
 }
 
-// |numerator| / denominator, whose bit lengths differ by e.
-Leading leading_bits(const Integer& numerator, const Integer& denominator, long e) {
+// numerator / denominator, whose bit lengths differ by e.
+Leading leading_bits(LimbSpan numerator, LimbSpan denominator, long e) {
   const long shift = 63 - e;
-  Integer scaled = abs(numerator);
-  Integer divisor = denominator;
+  mpz_t limbs;
+  Integer scaled(mpz_roinit_n(limbs, numerator.data(), static_cast<mp_size_t>(numerator.size())));
+  Integer divisor(
+      mpz_roinit_n(limbs, denominator.data(), static_cast<mp_size_t>(denominator.size())));
   if (shift >= 0) {
     scaled <<= static_cast<unsigned long>(shift);
   } else {
@@ -91,22 +93,49 @@ double rounded(const Leading& leading) {
 }
 
 // numerator * 2^-shift of at most 128 bits. REQUIRES numerator != 0
-NearestDouble round_short(const Integer& numerator, const Head& head, long shift) {
+NearestDouble round_short(LimbSpan numerator, const Head& head, long shift) {
   const long cut = head.length - 64;
-  const mp_limb_t lowest = mpz_limbs_read(numerator.get_mpz_t())[0];
-  const bool cut_off = cut > 0 && (lowest << (64 - cut)) != 0;
+  const bool cut_off = cut > 0 && (numerator[0] << (64 - cut)) != 0;
   const double magnitude =
       static_cast<double>(head.bits | (cut_off ? 1U : 0U)) * power_of_two(cut - shift);
   const bool is_exact = !cut_off && std::countr_zero(head.bits) >= 11;
-  return {sgn(numerator) < 0 ? -magnitude : magnitude, is_exact};
+  return {magnitude, is_exact};
+}
+
+NearestDouble round_magnitude(const RationalView& number) {
+  const LimbSpan numerator = number.numerator;
+  const Head above = head_of(numerator);
+  const bool is_dyadic = number.has_binary_denominator();
+  const auto shift = static_cast<long>(number.exponent);
+  if (is_dyadic) {
+    if (shift < clear_of_limits && above.length <= 128) {
+      return round_short(numerator, above, shift);
+    }
+  } else if (const auto quotient = quotient_of_heads(above, head_of(number.denominator))) {
+    return {*quotient, false};
+  }
+  // The number is in (2^(e-1), 2^(e+1)), e the difference of the lengths.
+  const long e = above.length - (is_dyadic ? shift + 1 : head_of(number.denominator).length);
+  if (e > 1025) return {std::numeric_limits<double>::infinity(), false};
+  if (e < -1080) return {0, false};
+  if (!is_dyadic) return {rounded(leading_bits(numerator, number.denominator, e)), false};
+  // The numerator of a double has few significant bits.
+  const bool is_exact =
+      std::abs(e) <= clear_of_limits + 1 && above.length - count_low_zeros(numerator) <= 53;
+  return {rounded(leading_bits(numerator, above, shift)), is_exact};
 }
 
 }  // namespace
 
+NearestDouble round_to_nearest(const RationalView& number) {
+  if (number.is_zero()) return {0, true};
+  const NearestDouble magnitude = round_magnitude(number);
+  return {number.negative ? -magnitude.value : magnitude.value, magnitude.is_exact};
+}
+
 NearestDouble round_to_nearest(const Rational& number) {
   const Integer& numerator = number.get_num();
   const Integer& denominator = number.get_den();
-  if (numerator == 0) return {0, true};
   if (mpz_size(numerator.get_mpz_t()) == 1 && mpz_size(denominator.get_mpz_t()) == 1) {
     const mp_limb_t above = mpz_getlimbn(numerator.get_mpz_t(), 0);
     const mp_limb_t below = mpz_getlimbn(denominator.get_mpz_t(), 0);
@@ -117,29 +146,7 @@ NearestDouble round_to_nearest(const Rational& number) {
       return {sgn(numerator) < 0 ? -magnitude : magnitude, std::has_single_bit(below)};
     }
   }
-  const Head above = head_of(limbs_of(numerator));
-  const Head below = head_of(limbs_of(denominator));
-  const bool is_dyadic = is_power_of_two(limbs_of(denominator));
-  const auto with_sign = [&numerator](double magnitude) {
-    return sgn(numerator) < 0 ? -magnitude : magnitude;
-  };
-  if (is_dyadic) {
-    const long shift = below.length - 1;
-    if (shift < clear_of_limits && above.length <= 128) {
-      return round_short(numerator, above, shift);
-    }
-  } else if (const auto quotient = quotient_of_heads(above, below)) {
-    return {with_sign(*quotient), false};
-  }
-  // |number| is in (2^(e-1), 2^(e+1)), e the difference of the lengths.
-  const long e = above.length - below.length;
-  if (e > 1025) return {with_sign(std::numeric_limits<double>::infinity()), false};
-  if (e < -1080) return {with_sign(0.0), false};
-  if (!is_dyadic) return {with_sign(rounded(leading_bits(numerator, denominator, e))), false};
-  // The numerator of a double has few significant bits.
-  const bool is_exact = std::abs(e) <= clear_of_limits + 1 &&
-                        above.length - static_cast<long>(mpz_scan1(numerator.get_mpz_t(), 0)) <= 53;
-  return {with_sign(rounded(leading_bits(numerator, above, below.length - 1))), is_exact};
+  return round_to_nearest(view_of(number));
 }
 
 double nearest_double(const Rational& value) { return round_to_nearest(value).value; }

@@ -1359,25 +1359,14 @@ class Merger {
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       exact[part].reserve(end - begin);
       for (std::size_t i = begin; i < end; ++i) {
-        positions.nearest[i] = append_position(vertices_[used[i]], exact[part]);
+        const NearPointView point = geometry_.exact_view(vertices_[used[i]]);
+        exact[part].push_back(point.exact);
+        positions.nearest[i] = point.nearest;
       }
     });
     positions.exact.reserve(used.size());
     for (ExactPoints& points : exact) positions.exact.append(std::move(points));
     return positions;
-  }
-
-  // The nearest doubles of a vertex, whose exact point is appended.
-  std::array<double, 3> append_position(const Vertex& v, ExactPoints& points) const {
-    if (!v.is_point) return append(geometry_.exact_point(v), points);
-    if (!std::isfinite(v.error)) return append(geometry_.point(v.point), points);
-    // An input point's doubles are the nearest ones already.
-    points.push_back(geometry_.point(v.point));
-    return {v.x, v.y, v.z};
-  }
-  static std::array<double, 3> append(const Point3& exact, ExactPoints& points) {
-    points.push_back(exact);
-    return {nearest_double(exact.x), nearest_double(exact.y), nearest_double(exact.z)};
   }
 
   // Sets boundary.vertices and boundary.approximate. The new number of each vertex.

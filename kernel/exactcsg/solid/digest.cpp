@@ -103,20 +103,25 @@ class HashedText {
                  number.exponent / 4 + 4;
     }
     reserve(longest);
+    char* to = end();
     for (std::size_t i = 0; i < 3; ++i) {
-      write(point[i]);
-      write(i == 2 ? '\n' : ' ');
+      to = write(to, point[i]);
+      *to++ = i == 2 ? '\n' : ' ';
     }
+    used_ = static_cast<std::size_t>(to - buffer_.data());
   }
   // Numbers of one line.
   template <std::size_t n>
   void add_line(const std::array<const NumberTexts::Text*, n>& numbers) {
     reserve(n * sizeof(NumberTexts::Text));
+    char* to = end();
     for (const NumberTexts::Text* number : numbers) {
-      std::memcpy(end(), number->characters.data(), NumberTexts::Text::capacity);
-      used_ += number->length;
+      // Its length, too, as one move of 16 bytes.
+      std::memcpy(to, number, sizeof *number);
+      to += number->length;
     }
-    buffer_[used_ - 1] = '\n';
+    to[-1] = '\n';
+    used_ = static_cast<std::size_t>(to - buffer_.data());
   }
   std::string digest() {
     flush();
@@ -126,37 +131,38 @@ class HashedText {
  private:
   static constexpr std::size_t digits_of_limb = GMP_NUMB_BITS / 4;
 
-  // These REQUIRE that there is room.
-  void write(char character) { buffer_[used_++] = character; }
-  void write(LimbSpan number) {
+  // These write to where there is room, and return where it goes on. (Members would be read again
+  // after every character, which may be theirs for all the compiler knows.)
+  static char* write(char* to, LimbSpan number) {
     std::size_t limb = number.size();
     if (limb == 0) {
-      write('0');
-      return;
+      *to++ = '0';
+      return to;
     }
     --limb;
     // Without its leading zeros.
     const auto digits = (static_cast<std::size_t>(std::bit_width(number[limb])) + 3) / 4;
-    write_limb(end(), number[limb] << 4 * (digits_of_limb - digits));
-    used_ += digits;
+    write_limb(to, number[limb] << 4 * (digits_of_limb - digits));
+    to += digits;
     while (limb > 0) {
-      write_limb(end(), number[--limb]);
-      used_ += digits_of_limb;
+      write_limb(to, number[--limb]);
+      to += digits_of_limb;
     }
+    return to;
   }
-  void write(const RationalView& number) {
-    if (number.negative) write('-');
-    write(number.numerator);
+  static char* write(char* to, const RationalView& number) {
+    if (number.negative) *to++ = '-';
+    to = write(to, number.numerator);
     if (!number.has_binary_denominator()) {
-      write('/');
-      write(number.denominator);
-    } else if (number.exponent > 0) {
-      write('/');
-      write("1248"[number.exponent % 4]);
-      std::fill_n(end(), number.exponent / 4, '0');
-      used_ += number.exponent / 4;
+      *to++ = '/';
+      return write(to, number.denominator);
     }
+    if (number.exponent == 0) return to;
+    *to++ = '/';
+    *to++ = "1248"[number.exponent % 4];
+    return std::fill_n(to, number.exponent / 4, '0');
   }
+
   char* end() { return buffer_.data() + used_; }
   void reserve(std::size_t size) {
     if (buffer_.size() - used_ >= size) return;

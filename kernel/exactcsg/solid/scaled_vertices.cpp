@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <optional>
+#include <span>
 
 #include "exactcsg/number/common_denominator.hpp"
 #include "exactcsg/number/limbs.hpp"
@@ -52,35 +52,34 @@ Integer floor_shifted(const Rational& value, long shift) {
   return result;
 }
 
-// Coordinates are non-negative and shorter than `width` limbs once the origin is subtracted, so
-// that it is enough to know every number on the way but for multiples of 2^(64 width).
-class Limbs {
- public:
-  explicit Limbs(std::size_t width) : width_(width), value_(width) {}
+// Coordinates are non-negative and shorter than a result's limbs once the origin is subtracted, so
+// that it is enough to know every number on the way but for multiples of 2^(64 limbs).
+using Limbs = std::span<mp_limb_t>;
 
-  const mp_limb_t* data() const { return value_.data(); }
-  void set(const mp_limb_t* limbs, std::size_t count) {
-    const std::size_t kept = std::min(count, width_);
-    std::copy_n(limbs, kept, value_.begin());
-    std::fill(value_.begin() + static_cast<std::ptrdiff_t>(kept), value_.end(), mp_limb_t{0});
-  }
-  void set_zero() { std::fill(value_.begin(), value_.end(), mp_limb_t{0}); }
-  void set(const Integer& value) {
-    set(mpz_limbs_read(value.get_mpz_t()), mpz_size(value.get_mpz_t()));
-    if (value < 0) negate();
-  }
-  void negate() { mpn_neg(value_.data(), value_.data(), size()); }
-  // -1 - value
-  void complement() { mpn_com(value_.data(), value_.data(), size()); }
-  void write_difference(mp_limb_t* result, const Limbs& subtracted) const {
-    mpn_sub_n(result, value_.data(), subtracted.value_.data(), size());
+// Loops instead of calls: there are few limbs.
+void set(Limbs result, LimbSpan value) {
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = i < value.size() ? value[i] : 0;
+}
+
+void negate(Limbs value) {
+  mpn_neg(value.data(), value.data(), static_cast<mp_size_t>(value.size()));
+}
+
+void set(Limbs result, const Integer& value) {
+  set(result, limbs_of(value));
+  if (value < 0) negate(result);
+}
+
+// Room that grows when it has to.
+class Room {
+ public:
+  mp_limb_t* of(std::size_t size) {
+    if (limbs_.size() < size) limbs_.resize(size);
+    return limbs_.data();
   }
 
  private:
-  mp_size_t size() const { return static_cast<mp_size_t>(width_); }
-
-  std::size_t width_;
-  std::vector<mp_limb_t> value_;
+  std::vector<mp_limb_t> limbs_;
 };
 
 // Numbers times a power of two, cut to integers.
@@ -88,92 +87,116 @@ class GridScaling {
  public:
   explicit GridScaling(long shift) : shift_(shift) {}
 
-  void operator()(Limbs& result, const RationalView& value) {
+  void operator()(Limbs result, const RationalView& value) {
     const bool whole = set_magnitude(result, value);
     if (!value.negative) return;
+    negate(result);
     // -(q + rest) is between -q - 1 and -q.
-    if (whole) {
-      result.negate();
-    } else {
-      result.complement();
-    }
+    if (!whole) mpn_sub_1(result.data(), result.data(), static_cast<mp_size_t>(result.size()), 1);
   }
 
  private:
+  // Of a magnitude. `whole` says that nothing was cut off.
+  struct Cut {
+    LimbSpan limbs;
+    bool whole = true;
+  };
+
   // Whether nothing was cut off.
-  bool set_magnitude(Limbs& result, const RationalView& value) {
+  bool set_magnitude(Limbs result, const RationalView& value) {
     if (value.is_zero()) {
-      result.set_zero();
+      set(result, LimbSpan());
       return true;
     }
     if (value.has_binary_denominator()) {
-      return set_shifted(result, value.numerator, shift_ - static_cast<long>(value.exponent));
+      const Cut cut = shifted(value.numerator, shift_ - static_cast<long>(value.exponent));
+      set(result, cut.limbs);
+      return cut.whole;
+    }
+    // Of decimals and doubles the odd part is short.
+    const LimbSpan divisor = value.denominator;
+    const long zeros = count_low_zeros(divisor);
+    if (head_of(divisor).length - zeros <= GMP_NUMB_BITS) {
+      return set_quotient(result, shifted(value.numerator, shift_ - zeros),
+                          shifted_limb(divisor, zeros));
     }
     if (shift_ >= 0) {
-      return set_quotient(result, shifted(value.numerator, shift_), value.denominator);
+      return set_quotient(result, shifted(value.numerator, shift_).limbs, divisor);
     }
-    return set_quotient(result, value.numerator, shifted(value.denominator, -shift_));
+    return set_quotient(result, value.numerator, shifted(divisor, -shift_).limbs);
   }
 
-  bool set_shifted(Limbs& result, LimbSpan value, long shift) {
-    if (shift >= 0) {
-      const LimbSpan longer = shifted(value, shift);
-      result.set(longer.data(), longer.size());
-      return true;
-    }
-    const auto whole = static_cast<std::size_t>(-shift) / GMP_NUMB_BITS;
-    const auto rest = static_cast<unsigned>(-shift % GMP_NUMB_BITS);
-    if (whole >= value.size()) {
-      result.set_zero();
-      return false;
-    }
-    const std::size_t count = value.size() - whole;
-    mp_limb_t cut = 0;
-    if (rest == 0) {
-      result.set(value.data() + whole, count);
-    } else {
-      shifted_.resize(count);
-      cut = mpn_rshift(shifted_.data(), value.data() + whole, static_cast<mp_size_t>(count), rest);
-      result.set(shifted_.data(), count);
-    }
-    return cut == 0 &&
-           std::all_of(value.data(), value.data() + whole, [](mp_limb_t l) { return l == 0; });
+  // value / 2^zeros, which has one limb.
+  static mp_limb_t shifted_limb(LimbSpan value, long zeros) {
+    const auto whole = static_cast<std::size_t>(zeros) / GMP_NUMB_BITS;
+    const auto rest = static_cast<unsigned>(zeros % GMP_NUMB_BITS);
+    const mp_limb_t low = value[whole] >> rest;
+    if (rest == 0 || whole + 1 == value.size()) return low;
+    return low | value[whole + 1] << (GMP_NUMB_BITS - rest);
   }
 
-  bool set_quotient(Limbs& result, LimbSpan numerator, LimbSpan divisor) {
+  // The numerator may have been cut: what is cut off twice is cut off as by one division.
+  bool set_quotient(Limbs result, const Cut& numerator, mp_limb_t divisor) {
+    const LimbSpan limbs = numerator.limbs;
+    if (limbs.empty()) {
+      set(result, LimbSpan());
+      return numerator.whole;
+    }
+    mp_limb_t* const quotient = quotient_.of(limbs.size());
+    const mp_limb_t remainder =
+        mpn_divrem_1(quotient, 0, limbs.data(), static_cast<mp_size_t>(limbs.size()), divisor);
+    set(result, {quotient, limbs.size()});
+    return numerator.whole && remainder == 0;
+  }
+
+  bool set_quotient(Limbs result, LimbSpan numerator, LimbSpan divisor) {
     if (numerator.size() < divisor.size()) {
-      result.set_zero();
+      set(result, LimbSpan());
       return false;
     }
-    quotient_.resize(numerator.size() - divisor.size() + 1);
-    remainder_.resize(divisor.size());
-    mpn_tdiv_qr(quotient_.data(), remainder_.data(), 0, numerator.data(),
-                static_cast<mp_size_t>(numerator.size()), divisor.data(),
-                static_cast<mp_size_t>(divisor.size()));
-    result.set(quotient_.data(), quotient_.size());
-    return mpn_zero_p(remainder_.data(), static_cast<mp_size_t>(remainder_.size())) != 0;
+    const std::size_t size = numerator.size() - divisor.size() + 1;
+    mp_limb_t* const quotient = quotient_.of(size);
+    mp_limb_t* const remainder = remainder_.of(divisor.size());
+    mpn_tdiv_qr(quotient, remainder, 0, numerator.data(), static_cast<mp_size_t>(numerator.size()),
+                divisor.data(), static_cast<mp_size_t>(divisor.size()));
+    set(result, {quotient, size});
+    return mpn_zero_p(remainder, static_cast<mp_size_t>(divisor.size())) != 0;
   }
 
-  // value * 2^shift, no leading zero. REQUIRES shift >= 0
-  LimbSpan shifted(LimbSpan value, long shift) {
+  // value * 2^shift, no leading zero. Until it is called again.
+  Cut shifted(LimbSpan value, long shift) {
+    if (shift < 0) return shifted_down(value, -shift);
     const auto whole = static_cast<std::size_t>(shift) / GMP_NUMB_BITS;
     const auto rest = static_cast<unsigned>(shift % GMP_NUMB_BITS);
-    shifted_.resize(value.size() + whole + 1);
-    std::fill_n(shifted_.data(), whole, mp_limb_t{0});
-    mp_limb_t* const to = shifted_.data() + whole;
+    mp_limb_t* const begin = shifted_.of(value.size() + whole + 1);
+    for (std::size_t i = 0; i < whole; ++i) begin[i] = 0;
+    mp_limb_t* const to = begin + whole;
     to[value.size()] = 0;
     if (rest == 0) {
       std::copy_n(value.data(), value.size(), to);
     } else {
       to[value.size()] = mpn_lshift(to, value.data(), static_cast<mp_size_t>(value.size()), rest);
     }
-    return {shifted_.data(), shifted_.size() - (to[value.size()] == 0 ? 1 : 0)};
+    return {LimbSpan(begin, whole + value.size() + (to[value.size()] == 0 ? 0 : 1))};
+  }
+
+  Cut shifted_down(LimbSpan value, long shift) {
+    const auto whole = static_cast<std::size_t>(shift) / GMP_NUMB_BITS;
+    const auto rest = static_cast<unsigned>(shift % GMP_NUMB_BITS);
+    if (whole >= value.size()) return {{}, false};
+    const LimbSpan kept = value.subspan(whole);
+    mp_limb_t cut = 0;
+    for (std::size_t i = 0; i < whole; ++i) cut |= value[i];
+    if (rest == 0) return {kept, cut == 0};
+    mp_limb_t* const to = shifted_.of(kept.size());
+    cut |= mpn_rshift(to, kept.data(), static_cast<mp_size_t>(kept.size()), rest);
+    return {LimbSpan(to, kept.size() - (to[kept.size() - 1] == 0 ? 1 : 0)), cut == 0};
   }
 
   long shift_;
-  std::vector<mp_limb_t> shifted_;
-  std::vector<mp_limb_t> quotient_;
-  std::vector<mp_limb_t> remainder_;
+  Room shifted_;
+  Room quotient_;
+  Room remainder_;
 };
 
 // Numbers times a common denominator of theirs.
@@ -181,9 +204,9 @@ class ExactScaling {
  public:
   explicit ExactScaling(const Integer& common) : common_(common) {}
 
-  void operator()(Limbs& result, const RationalView& value) {
+  void operator()(Limbs result, const RationalView& value) {
     if (value.is_zero()) {
-      result.set_zero();
+      set(result, LimbSpan());
       return;
     }
     if (!equal_denominators(value, last_)) {
@@ -194,8 +217,8 @@ class ExactScaling {
     mpz_mul(product_.get_mpz_t(), factor_.get_mpz_t(),
             mpz_roinit_n(numerator, value.numerator.data(),
                          static_cast<mp_size_t>(value.numerator.size())));
-    result.set(product_);
-    if (value.negative) result.negate();
+    set(result, product_);
+    if (value.negative) negate(result);
   }
 
  private:
@@ -215,7 +238,7 @@ class ExactScaling {
   Integer product_;
 };
 
-// `scaled(rational)` is an Integer, monotone; `set_scaled(limbs, view)` the same.
+// `scaled(rational)` is an Integer, monotone; `set_scaled(limbs, view)` sets the limbs to the same.
 template <class Scaled, class SetScaled>
 void fill(ScaledVertices& s, const Boundary& boundary, const CoordinateRanges& ranges,
           const Scaled& scaled, SetScaled set_scaled) {
@@ -228,15 +251,14 @@ void fill(ScaledVertices& s, const Boundary& boundary, const CoordinateRanges& r
   s.origin = {lowest[0] * s.unit, lowest[1] * s.unit, lowest[2] * s.unit};
   s.width = (mpz_sizeinbase(s.largest.get_mpz_t(), 2) + 2 + 59) / 60;
   s.limbs.resize(3 * s.width * boundary.vertices.size());
-  std::vector<Limbs> origin(3, Limbs(s.width));
-  for (std::size_t i = 0; i < 3; ++i) origin[i].set(lowest[i]);
-  Limbs value(s.width);
+  std::vector<mp_limb_t> origin(3 * s.width);
+  for (std::size_t i = 0; i < 3; ++i) set(Limbs(origin).subspan(i * s.width, s.width), lowest[i]);
   mp_limb_t* to = s.limbs.data();
   for (std::size_t v = 0; v < boundary.vertices.size(); ++v) {
     const PointView vertex = boundary.vertices.view(v);
     for (std::size_t i = 0; i < 3; ++i, to += s.width) {
-      set_scaled(value, vertex[i]);
-      value.write_difference(to, origin[i]);
+      set_scaled(Limbs(to, s.width), vertex[i]);
+      mpn_sub_n(to, to, origin.data() + i * s.width, static_cast<mp_size_t>(s.width));
     }
   }
 }
