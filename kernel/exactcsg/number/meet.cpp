@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exactcsg/number/side_bound.hpp"
+
 namespace exactcsg {
 
 namespace {
@@ -38,9 +40,7 @@ double determinant(const ApproximatePlane& p, const DoubleVector& cofactors) {
 ApproximateDeterminant value_at(const ApproximatePlane& plane, const ApproximatePoint& point) {
   const double length = std::fabs(point.x) + std::fabs(point.y) + std::fabs(point.z);
   const double value = plane.a * point.x + plane.b * point.y + plane.c * point.z + plane.d;
-  return {value, length * (plane.normal_error + 6 * unit) +
-                     (plane.offset_error + std::fabs(plane.d) * (6 * unit)) + 4 * point.error +
-                     0x1p-1022};
+  return {value, side_bound(plane, length, point.error)};
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 #include "exactcsg/solid/cell_evaluation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "exactcsg/number/side_bound.hpp"
 #include "exactcsg/solid/polygon.hpp"
 
 namespace exactcsg {
@@ -26,8 +28,7 @@ CellEvaluator::CellEvaluator(const Scene& scene, Progress* progress)
 void CellEvaluator::build_local_forms(std::span<const CellFacet> facets) {
   nodes_.clear();
   locals_.clear();
-  planes_.clear();
-  for (const CellFacet& facet : facets) planes_.push_back(facet.polygon.plane);
+  set_planes(facets);
   for (std::size_t begin = 0; begin < facets.size();) {
     std::size_t end = begin;
     while (end < facets.size() && facets[end].primitive == facets[begin].primitive) ++end;
@@ -38,6 +39,29 @@ void CellEvaluator::build_local_forms(std::span<const CellFacet> facets) {
     locals_.push_back({primitive, convex, root, static_cast<std::uint32_t>(begin),
                        static_cast<std::uint32_t>(end - begin)});
     begin = end;
+  }
+}
+
+// Of the cell's vertices none is farther from the origin than the farthest corner of a facet, but
+// for the errors of either; one with a greater error than the limit is left to Geometry::side.
+void CellEvaluator::set_planes(std::span<const CellFacet> facets) {
+  double length = 0;
+  double error = 0;
+  for (const CellFacet& facet : facets) {
+    facet.polygon.corners.for_each_vertex([&](std::size_t, const Vertex& v) {
+      length = std::max(length, std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z));
+      error = std::max(error, v.error);
+    });
+  }
+  constexpr double growth = 16;  // of the error, from corners to the points where they are cut
+  error_limit_ = growth * error + 0x1p-52 * length;
+  const double length_limit = length * (1 + 0x1p-20) + 8 * error_limit_;
+  planes_.clear();
+  for (const CellFacet& facet : facets) {
+    const OrientedPlaneRef plane = facet.polygon.plane;
+    const Geometry::ApproximatePlane near = scene_.geometry.approximate(plane.plane);
+    planes_.push_back(
+        {plane, near.a, near.b, near.c, near.d, side_bound(near, length_limit, error_limit_)});
   }
 }
 
@@ -52,8 +76,8 @@ void CellEvaluator::order_primitives_for(const CellFacet& facet) {
   order_.clear();
   const auto has_coplanar_facet = [&](const LocalPrimitive& local) {
     const auto planes = std::span(planes_).subspan(local.first_facet, local.facet_count);
-    return std::any_of(planes.begin(), planes.end(), [&](OrientedPlaneRef plane) {
-      return plane.plane == facet.polygon.plane.plane;
+    return std::any_of(planes.begin(), planes.end(), [&](const NearPlane& near) {
+      return near.oriented.plane == facet.polygon.plane.plane;
     });
   };
   for (std::uint32_t i = 0; i < locals_.size(); ++i) {
@@ -207,26 +231,27 @@ CellEvaluator::Relation CellEvaluator::relate(const CornerRun& polygon, const Lo
     return plane.sense > 0 ? PlaneSplit::AllPositive : PlaneSplit::AllNegative;
   };
   cutting_.clear();
-  for (const OrientedPlaneRef plane :
-       std::span(planes_).subspan(local.first_facet, local.facet_count)) {
+  for (std::uint32_t i = local.first_facet; i < local.first_facet + local.facet_count; ++i) {
+    const OrientedPlaneRef plane = planes_[i].oriented;
     if (plane.plane == own) {
       crossing.inside = plane.sense > 0 ? BothSides{Membership::Out, Membership::In}
                                         : BothSides{Membership::In, Membership::Out};
       continue;
     }
-    const PlaneSplit side = split(polygon, plane.plane);
+    const PlaneSplit side = split(polygon, planes_[i]);
     if (side == outside(plane)) return Relation::Outside;
     if (side != PlaneSplit::Both) continue;
     if (cutting_.empty()) signs_.swap(first_signs_);
-    cutting_.push_back(plane);
+    cutting_.push_back(i);
   }
   if (cutting_.empty()) return Relation::Inside;
   crossing.section = polygon;
-  for (const OrientedPlaneRef plane : cutting_) {
-    if (plane == cutting_.front()) {
+  for (const std::uint32_t i : cutting_) {
+    const OrientedPlaneRef plane = planes_[i].oriented;
+    if (i == cutting_.front()) {
       signs_.swap(first_signs_);
     } else {
-      const PlaneSplit side = split(crossing.section, plane.plane);
+      const PlaneSplit side = split(crossing.section, planes_[i]);
       if (side == outside(plane)) return Relation::Outside;
       if (side != PlaneSplit::Both) continue;
     }
@@ -240,16 +265,41 @@ CellEvaluator::Relation CellEvaluator::relate(const CornerRun& polygon, const Lo
 
 // The sides of all corners into signs_.
 PlaneSplit CellEvaluator::split(const CornerRun& polygon, PlaneRef plane) {
+  return split_with(polygon, [&](const Vertex& vertex) { return side(vertex, plane); });
+}
+
+Sign CellEvaluator::side(const Vertex& vertex, PlaneRef plane) {
+  const Sign sign = scene_.geometry.side(vertex, plane, *statistics_);
+  if (sign == Sign::Zero && !is_made_by(vertex, plane)) in_general_position_ = false;
+  return sign;
+}
+
+// The same by one bound for all of the cell's vertices; where it does not decide, by their own.
+PlaneSplit CellEvaluator::split(const CornerRun& polygon, const NearPlane& near) {
+  std::size_t decided = 0;
+  const PlaneSplit result = split_with(polygon, [&](const Vertex& v) {
+    const double value = near.a * v.x + near.b * v.y + near.c * v.z + near.d;
+    if (!(std::fabs(value) > near.bound && v.error <= error_limit_)) {
+      return side(v, near.oriented.plane);
+    }
+    ++decided;
+    return value > 0 ? Sign::Positive : Sign::Negative;
+  });
+  statistics_->answers[static_cast<std::size_t>(Tier::Double)] += decided;
+  return result;
+}
+
+template <class SideOf>
+PlaneSplit CellEvaluator::split_with(const CornerRun& polygon, const SideOf& side_of) {
   const std::span<const SectionCorner> corners = store_.of(polygon);
   signs_.resize(corners.size());
   bool negative = false;
   bool positive = false;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vertex& vertex = store_.vertex(corners[i]);
-    signs_[i] = scene_.geometry.side(vertex, plane, *statistics_);
-    if (signs_[i] == Sign::Zero && !is_made_by(vertex, plane)) in_general_position_ = false;
-    negative |= signs_[i] == Sign::Negative;
-    positive |= signs_[i] == Sign::Positive;
+    const Sign sign = side_of(store_.vertex(corners[i]));
+    signs_[i] = sign;
+    negative |= sign == Sign::Negative;
+    positive |= sign == Sign::Positive;
   }
   if (negative && positive) return PlaneSplit::Both;
   if (!negative && !positive) {

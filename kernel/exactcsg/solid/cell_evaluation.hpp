@@ -82,6 +82,13 @@ class CellEvaluator {
     std::uint32_t first_facet;  // in the cell
     std::uint32_t facet_count;
   };
+  // The plane of a facet of the cell. A value of a x + b y + c z + d beyond the bound has the right
+  // sign.
+  struct NearPlane {
+    OrientedPlaneRef oriented;
+    double a, b, c, d;
+    double bound;
+  };
   // A primitive that crosses the part at hand, or has not been looked at.
   struct Crossing {
     std::uint32_t place;  // in order_
@@ -97,6 +104,7 @@ class CellEvaluator {
   enum class Relation : unsigned char { Outside, Inside, Across };
 
   void build_local_forms(std::span<const CellFacet> facets);
+  void set_planes(std::span<const CellFacet> facets);
   LocalPlace local_form_of_mesh(std::span<const CellFacet> facets);
   void order_primitives_for(const CellFacet& facet);
   void join_pieces(const CellFacet& facet, const PieceCollector::Mark& before);
@@ -120,7 +128,11 @@ class CellEvaluator {
   bool is_left_to(PrimitiveIndex primitive, const BothSides& sides) const {
     return sides.front != sides.behind && primitive < facet_->primitive;
   }
+  Sign side(const Vertex& vertex, PlaneRef plane);
+  template <class SideOf>
+  PlaneSplit split_with(const CornerRun& polygon, const SideOf& side_of);
   PlaneSplit split(const CornerRun& polygon, PlaneRef plane);
+  PlaneSplit split(const CornerRun& polygon, const NearPlane& near);
   void undo_decisions(std::size_t count);
   void decide(PrimitiveIndex primitive, const BothSides& sides);
   void emit(const CornerRun& polygon, std::uint64_t share, signed char outward);
@@ -139,8 +151,9 @@ class CellEvaluator {
   std::size_t coplanar_count_ = 0;
   SectionStore store_;
   std::vector<Crossing> crossings_;
-  std::vector<OrientedPlaneRef> planes_;   // of the cell's facets
-  std::vector<OrientedPlaneRef> cutting_;  // of them, those that may cut the part at hand
+  std::vector<NearPlane> planes_;       // of the cell's facets
+  double error_limit_ = 0;              // of vertices for which their bounds hold
+  std::vector<std::uint32_t> cutting_;  // of them, those that may cut the part at hand
   std::vector<Sign> signs_;
   std::vector<Sign> first_signs_;
   std::vector<LoopCorner> loop_;
