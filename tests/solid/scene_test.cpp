@@ -132,20 +132,25 @@ TEST(Scene, CoplanarNeighboursShareAPlane) {
   }
 }
 
+// Many shapes are shared out among threads, large ones are shared by them.
 TEST(Scene, DoesNotDependOnThreads) {
-  const Solid solid = united(primitives());
-  const Scene scene = make_scene(solid, 1);
-  const Scene other = make_scene(solid, 3);
-  EXPECT_EQ(scene.corners, other.corners);
-  EXPECT_EQ(scene.root.lower, other.root.lower);
-  EXPECT_EQ(scene.root.upper, other.root.upper);
-  ASSERT_EQ(scene.facets.size(), other.facets.size());
-  for (std::size_t f = 0; f < scene.facets.size(); ++f) {
-    EXPECT_EQ(scene.facets[f].plane, other.facets[f].plane);
-    EXPECT_EQ(scene.facets[f].first_corner, other.facets[f].first_corner);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      EXPECT_EQ(scene.bounds.facets[axis][f].lower, other.bounds.facets[axis][f].lower);
-      EXPECT_EQ(scene.bounds.facets[axis][f].upper, other.bounds.facets[axis][f].upper);
+  const Primitive large{make_mesh_unchecked(test::triangulated(pyramid(4000)))};
+  const Primitive moved = apply(test::translation(0, 0, 64), large);
+  const Primitive thirds = apply(test::translation(0, 0, Rational(1, 3)), large);
+  for (const Solid& solid : {united(primitives()), united({large, moved, thirds})}) {
+    const Scene scene = make_scene(solid, 1);
+    const Scene other = make_scene(solid, 3);
+    EXPECT_EQ(scene.corners, other.corners);
+    EXPECT_EQ(scene.root.lower, other.root.lower);
+    EXPECT_EQ(scene.root.upper, other.root.upper);
+    ASSERT_EQ(scene.facets.size(), other.facets.size());
+    for (std::size_t f = 0; f < scene.facets.size(); ++f) {
+      EXPECT_EQ(scene.facets[f].plane, other.facets[f].plane);
+      EXPECT_EQ(scene.facets[f].first_corner, other.facets[f].first_corner);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(scene.bounds.facets[axis][f].lower, other.bounds.facets[axis][f].lower);
+        EXPECT_EQ(scene.bounds.facets[axis][f].upper, other.bounds.facets[axis][f].upper);
+      }
     }
   }
 }

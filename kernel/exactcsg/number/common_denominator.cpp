@@ -34,7 +34,7 @@ std::optional<Integer> short_common_denominator(std::span<const Point3> points) 
     for (std::size_t i = 0; i < 3; ++i) {
       const Integer& denominator = coordinate(p, i).get_den();
       const mp_limb_t first = mpz_getlimbn(denominator.get_mpz_t(), 0);
-      if (mpz_size(denominator.get_mpz_t()) == 1 && std::has_single_bit(first)) {
+      if (mpz_size(denominator.get_mpz_t()) == 1 && (first & (first - 1U)) == 0) {
         powers_of_two |= first;
       } else {
         make_multiple(common, denominator);

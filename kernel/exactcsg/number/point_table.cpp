@@ -23,13 +23,6 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
   return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64U);
 }
 
-std::uint64_t mixed(std::uint64_t hash, const Integer& value) {
-  const std::size_t size = mpz_size(value.get_mpz_t());
-  const mp_limb_t* limbs = mpz_limbs_read(value.get_mpz_t());
-  for (std::size_t i = 0; i < size; ++i) hash = mixed(hash, limbs[i]);
-  return hash;
-}
-
 // Mostly the doubles tell points apart. Far from the origin, or where they cannot hold coordinates
 // at all, many different points have equal ones.
 std::uint64_t hash_of(const Point3& point, const ApproximatePoint& near) {
@@ -38,8 +31,13 @@ std::uint64_t hash_of(const Point3& point, const ApproximatePoint& near) {
     hash = mixed(hash, std::bit_cast<std::uint64_t>(value));
   }
   if (near.error == 0) return hash;
-  for (const Rational* value : {&point.x, &point.y, &point.z}) hash = mixed(hash, value->get_num());
-  return hash;
+  std::uint64_t limbs = 0;
+  for (const Rational* value : {&point.x, &point.y, &point.z}) {
+    const mpz_srcptr numerator = value->get_num_mpz_t();
+    const auto size = static_cast<mp_size_t>(mpz_size(numerator));
+    for (mp_size_t i = 0; i < size; ++i) limbs = std::rotl(limbs, 21) + mpz_getlimbn(numerator, i);
+  }
+  return mixed(hash, limbs);
 }
 
 bool are_equal(const ApproximatePoint& p, const ApproximatePoint& q) {

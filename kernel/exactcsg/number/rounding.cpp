@@ -143,7 +143,7 @@ NearestDouble round_to_nearest(const Rational& number) {
     // two leaves no remainder.
     if ((above | below) >> std::numeric_limits<double>::digits == 0) {
       const double magnitude = static_cast<double>(above) / static_cast<double>(below);
-      return {sgn(numerator) < 0 ? -magnitude : magnitude, std::has_single_bit(below)};
+      return {sgn(numerator) < 0 ? -magnitude : magnitude, (below & (below - 1U)) == 0};
     }
   }
   return round_to_nearest(view_of(number));

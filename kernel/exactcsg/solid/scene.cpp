@@ -212,18 +212,19 @@ Axis steepest_axis(const Geometry::ApproximatePlane& plane) {
 class MeshPlanes {
  public:
   // known: of the kind's first polyhedron. REQUIRES its points; its planes are filled in.
-  MeshPlanes(Kind& kind, PreparedPolyhedron& known)
+  MeshPlanes(Kind& kind, PreparedPolyhedron& known, unsigned threads)
       : kind_(kind),
         known_(known),
+        threads_(threads),
         polyhedron_(*kind.first),
         opposite_(opposite_sides(kind)),
         facets_(facets_of_sides(kind)) {}
 
   void find() {
-    planes_.reserve(kind_.triples.size());
-    for (const Triple& triple : kind_.triples) {
-      planes_.push_back(plane_through_corners(polyhedron_, known_, triple));
-    }
+    planes_.resize(kind_.triples.size());
+    in_parallel_parts(threads_, planes_.size(), [&](std::size_t f) {
+      planes_[f] = plane_through_corners(polyhedron_, known_, kind_.triples[f]);
+    });
     find_flat_sides();
     keep_planes();
     set_side_planes();
@@ -238,26 +239,44 @@ class MeshPlanes {
 
   void find_flat_sides() {
     is_flat_.resize(kind_.corners.size());
+    // First those of which doubles do not tell that they are not.
+    in_parallel_parts(threads_, is_flat_.size(), [&](std::size_t side) {
+      const auto i = static_cast<std::uint32_t>(side);
+      is_flat_[side] = was_seen_from_there(i) ? 0 : may_be_flat(i);
+    });
+    std::optional<PolyhedronSigns> signs;
     for (std::uint32_t side = 0; side < is_flat_.size(); ++side) {
-      is_flat_[side] = was_seen_from_there(side) ? static_cast<bool>(is_flat_[opposite_[side]])
-                                                 : are_coplanar(facets_[side], neighbour(side));
+      if (was_seen_from_there(side)) {
+        is_flat_[side] = is_flat_[opposite_[side]];
+      } else if (is_flat_[side] != 0) {
+        if (!signs) signs.emplace(polyhedron_.vertices);
+        is_flat_[side] = is_flat(side, *signs);
+      }
     }
   }
 
-  bool are_coplanar(std::uint32_t facet, std::uint32_t other) {
-    const auto own = kind_.corners_of(facet);
-    const auto corners = kind_.corners_of(other);
+  // all(corner) of every corner of the neighbour that is not the facet's.
+  template <class Predicate>
+  bool all_beyond(std::uint32_t side, const Predicate& all) const {
+    const auto own = kind_.corners_of(facets_[side]);
+    const auto corners = kind_.corners_of(neighbour(side));
     return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
-      return std::find(own.begin(), own.end(), corner) != own.end() || is_in_plane(facet, corner);
+      return std::find(own.begin(), own.end(), corner) != own.end() || all(corner);
     });
   }
 
-  // Mostly doubles tell that it is not.
-  bool is_in_plane(std::uint32_t facet, std::uint32_t corner) {
-    if (Geometry::filtered_side(planes_[facet].near, known_.points[corner].near) != 0) return false;
-    if (!signs_) signs_.emplace(polyhedron_.vertices);
-    const auto [a, b, c] = kind_.triples[facet];
-    return signs_->orientation(a, b, c, corner) == Sign::Zero;
+  bool may_be_flat(std::uint32_t side) const {
+    const Geometry::ApproximatePlane& plane = planes_[facets_[side]].near;
+    return all_beyond(side, [&](std::uint32_t corner) {
+      return Geometry::filtered_side(plane, known_.points[corner].near) == 0;
+    });
+  }
+
+  bool is_flat(std::uint32_t side, const PolyhedronSigns& signs) const {
+    const auto& [a, b, c] = kind_.triples[facets_[side]];
+    return all_beyond(side, [&, a = a, b = b, c = c](std::uint32_t corner) {
+      return signs.orientation(a, b, c, corner) == Sign::Zero;
+    });
   }
 
   // Of coplanar facets, which are folded if they do not look the same way.
@@ -272,7 +291,7 @@ class MeshPlanes {
     for (std::uint32_t side = kind_.first_corners[facet]; side < kind_.first_corners[facet + 1];
          ++side) {
       const std::uint32_t other = neighbour(side);
-      if (is_flat_[side] && other < facet && look_the_same_way(facet, other)) return other;
+      if (is_flat_[side] != 0 && other < facet && look_the_same_way(facet, other)) return other;
     }
     return facet;
   }
@@ -302,7 +321,7 @@ class MeshPlanes {
   }
 
   std::uint32_t plane_of_side(std::uint32_t side) {
-    if (!is_flat_[side]) return kind_.facet_planes[neighbour(side)];
+    if (is_flat_[side] == 0) return kind_.facet_planes[neighbour(side)];
     if (was_seen_from_there(side)) return kind_.side_planes[opposite_[side]];
     const std::uint32_t facet = facets_[side];
     const std::uint32_t from = kind_.corners[side];
@@ -316,23 +335,23 @@ class MeshPlanes {
 
   Kind& kind_;
   PreparedPolyhedron& known_;
+  unsigned threads_;
   const Polyhedron& polyhedron_;
   std::vector<std::uint32_t> opposite_;
-  std::vector<std::uint32_t> facets_;     // of sides
-  std::vector<PreparedPlane> planes_;     // of facets
-  std::vector<bool> is_flat_;             // sides: the neighbour lies in the same plane
-  std::optional<PolyhedronSigns> signs_;  // once doubles do not tell
+  std::vector<std::uint32_t> facets_;   // of sides
+  std::vector<PreparedPlane> planes_;   // of facets
+  std::vector<unsigned char> is_flat_;  // sides: the neighbour lies in the same plane
 };
 
 // known: of the kind's first polyhedron. REQUIRES its points; of a mesh the planes are filled in.
-void complete(Kind& kind, PreparedPolyhedron& known) {
+void complete(Kind& kind, PreparedPolyhedron& known, unsigned threads) {
   list_corners(kind);
-  kind.triples.reserve(kind.facet_count());
-  for (const Facet& facet : kind.first->facets) {
-    kind.triples.push_back(spanning_triple(*kind.first, known.points, facet));
-  }
+  kind.triples.resize(kind.facet_count());
+  in_parallel_parts(threads, kind.triples.size(), [&](std::size_t f) {
+    kind.triples[f] = spanning_triple(*kind.first, known.points, kind.first->facets[f]);
+  });
   if (!kind.convex) {
-    MeshPlanes(kind, known).find();
+    MeshPlanes(kind, known, threads).find();
     return;
   }
   // Neighbours of a convex polytope are not coplanar.
@@ -343,37 +362,36 @@ void complete(Kind& kind, PreparedPolyhedron& known) {
 
 // The planes of a polyhedron of a known kind. A triple that spans well in one copy need not do so
 // in another.
-void set_planes(const Polyhedron& polyhedron, const Kind& kind, PreparedPolyhedron& known) {
+void set_planes(const Polyhedron& polyhedron, const Kind& kind, PreparedPolyhedron& known,
+                unsigned threads) {
   // Of a normal: well-conditioned ones are known better.
   constexpr double good = 0x1p-44;
-  known.planes.reserve(kind.plane_count());
-  for (std::size_t p = 0; p < kind.triples.size(); ++p) {
-    const auto [a, b, c] = kind.triples[p];
-    std::optional<PreparedPlane> plane =
-        quickly_prepared_plane(known.near_point(polyhedron, a), known.near_point(polyhedron, b),
-                               known.near_point(polyhedron, c));
+  known.planes.resize(kind.plane_count());
+  known.triples = kind.triples;
+  in_parallel_parts(threads, known.triples.size(), [&](std::size_t p) {
+    Triple& triple = known.triples[p];
+    std::optional<PreparedPlane> plane = quickly_prepared_plane(
+        known.near_point(polyhedron, triple[0]), known.near_point(polyhedron, triple[1]),
+        known.near_point(polyhedron, triple[2]));
     if (!plane || plane->near.normal_error > good) {
-      Triple triple = kind.triples[p];
-      if (kind.convex) {
-        triple = spanning_triple(polyhedron, known.points, polyhedron.facets[p]);
-        if (known.triples.empty()) known.triples = kind.triples;
-        known.triples[p] = triple;
-      }
+      if (kind.convex) triple = spanning_triple(polyhedron, known.points, polyhedron.facets[p]);
       plane = plane_through_corners(polyhedron, known, triple);
     }
-    known.planes.push_back(*std::move(plane));
-  }
+    known.planes[p] = *std::move(plane);
+  });
+  auto plane = known.planes.begin() + static_cast<std::ptrdiff_t>(kind.triples.size());
   for (const auto& [from, to, axis] : kind.planes_across) {
-    known.planes.push_back(
-        prepared_plane(known.near_point(polyhedron, from), known.near_point(polyhedron, to), axis));
+    *plane++ =
+        prepared_plane(known.near_point(polyhedron, from), known.near_point(polyhedron, to), axis);
   }
 }
 
 // Finds the points' doubles. An infinite error: coordinates that doubles cannot hold.
-void set_points(const Polyhedron& polyhedron, PreparedPolyhedron& known) {
-  known.points.reserve(polyhedron.vertices.size());
-  for (const Point3& vertex : polyhedron.vertices) {
-    const HashedPoint& point = known.points.emplace_back(hashed(vertex));
+void set_points(const Polyhedron& polyhedron, PreparedPolyhedron& known, unsigned threads) {
+  known.points.resize(polyhedron.vertices.size());
+  in_parallel_parts(threads, known.points.size(),
+                    [&](std::size_t v) { known.points[v] = hashed(polyhedron.vertices[v]); });
+  for (const HashedPoint& point : known.points) {
     const std::array<double, 3> coordinates{point.near.x, point.near.y, point.near.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double value = coordinates[axis];
@@ -553,21 +571,26 @@ class SceneBuilder {
   }
 
   // Numbers points and planes in the order of the primitives. What can be found out of a primitive
-  // by itself is found by several threads, of a few primitives at a time.
+  // by itself is found by several threads, of a few primitives at a time; of a few in all, they
+  // share each.
   void add_shapes(unsigned threads) {
     make_room();
+    constexpr std::size_t few = 8;
+    const bool share_each = shapes_.size() <= few;
+    const unsigned inside = share_each ? threads : 1;
+    if (share_each) threads = 1;
     const std::size_t at_a_time = threads == 1 ? 1 : 64;
     for (std::size_t first = 0; first < shapes_.size(); first += at_a_time) {
       const auto shapes =
           std::span(shapes_).subspan(first, std::min(at_a_time, shapes_.size() - first));
       std::vector<PreparedPolyhedron> known(shapes.size());
       in_parallel(threads, shapes.size(), [&](std::size_t i) {
-        if (shapes[i].polyhedron) set_points(*shapes[i].polyhedron, known[i]);
+        if (shapes[i].polyhedron) set_points(*shapes[i].polyhedron, known[i], inside);
       });
-      set_kinds(shapes, known, threads);
+      set_kinds(shapes, known, threads, inside);
       in_parallel(threads, shapes.size(), [&](std::size_t i) {
         if (!shapes[i].polyhedron || !known[i].planes.empty()) return;
-        set_planes(*shapes[i].polyhedron, *shapes[i].kind, known[i]);
+        set_planes(*shapes[i].polyhedron, *shapes[i].kind, known[i], inside);
       });
       for (std::size_t i = 0; i < shapes.size(); ++i) {
         if (shapes[i].polyhedron) {
@@ -595,7 +618,8 @@ class SceneBuilder {
   }
 
   // Copies of one shape follow one another in most models.
-  void set_kinds(std::span<Shape> shapes, std::span<PreparedPolyhedron> known, unsigned threads) {
+  void set_kinds(std::span<Shape> shapes, std::span<PreparedPolyhedron> known, unsigned threads,
+                 unsigned inside) {
     struct NewKind {
       std::shared_ptr<Kind> kind;
       PreparedPolyhedron* known;
@@ -610,7 +634,7 @@ class SceneBuilder {
       shapes[i].kind = last_kind_;
     }
     in_parallel(threads, new_kinds.size(),
-                [&](std::size_t i) { complete(*new_kinds[i].kind, *new_kinds[i].known); });
+                [&](std::size_t i) { complete(*new_kinds[i].kind, *new_kinds[i].known, inside); });
   }
 
   static bool is_of_kind(const Shape& shape, const PreparedPolyhedron& known, const Kind& kind) {
