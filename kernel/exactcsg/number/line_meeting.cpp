@@ -282,7 +282,8 @@ RationalView coordinate_of_line(Scratch& s, std::size_t i, const Integer& direct
 
 PointView meeting_point_of_line(const Point3& p, const Point3& q, const PlaneForm& plane) {
   Scratch& s = scratch();
-  auto& [from, to, unused] = s.points;
+  auto& from = s.points[0];
+  auto& to = s.points[1];
   Vector& direction = s.u;
   set_scaled(from, p, s.factor);
   const std::array<bool, 3> along{p.x != q.x, p.y != q.y, p.z != q.z};

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <optional>
 #include <span>
 
 #include "exactcsg/number/common_denominator.hpp"
+#include "exactcsg/number/digits.hpp"
 #include "exactcsg/number/limbs.hpp"
 
 namespace exactcsg {
@@ -82,6 +84,49 @@ class Room {
   std::vector<mp_limb_t> limbs_;
 };
 
+// Division by a number of one limb that is divided by often. (N. Moeller and T. Granlund, Improved
+// division by invariant integers, 2011, algorithm 4.)
+class ShortDivisor {
+ public:
+  ShortDivisor() = default;
+  explicit ShortDivisor(mp_limb_t divisor)
+      : divisor_(divisor),
+        shift_(std::countl_zero(divisor)),
+        normalized_(divisor << shift_),
+        // floor((2^128 - 1) / normalized) - 2^64
+        reciprocal_(static_cast<mp_limb_t>(~(UnsignedInt128{normalized_} << 64U) / normalized_)) {}
+
+  mp_limb_t divisor() const { return divisor_; }
+  // Dividends are to be multiplied by 2^shift before.
+  int shift() const { return shift_; }
+  // Sets the quotient of that dividend, as many limbs. Whether nothing remains.
+  bool divide(mp_limb_t* quotient, LimbSpan dividend) const {
+    mp_limb_t rest = 0;
+    for (std::size_t i = dividend.size(); i > 0; --i) {
+      const UnsignedInt128 estimate =
+          UnsignedInt128{reciprocal_} * rest + (UnsignedInt128{rest} << 64U | dividend[i - 1]);
+      mp_limb_t digit = static_cast<mp_limb_t>(estimate >> 64U) + 1;
+      rest = dividend[i - 1] - digit * normalized_;
+      if (rest > static_cast<mp_limb_t>(estimate)) {
+        --digit;
+        rest += normalized_;
+      }
+      if (rest >= normalized_) {
+        ++digit;
+        rest -= normalized_;
+      }
+      quotient[i - 1] = digit;
+    }
+    return rest == 0;
+  }
+
+ private:
+  mp_limb_t divisor_ = 0;
+  int shift_ = 0;
+  mp_limb_t normalized_ = 0;
+  mp_limb_t reciprocal_ = 0;
+};
+
 // Numbers times a power of two, cut to integers.
 class GridScaling {
  public:
@@ -117,8 +162,8 @@ class GridScaling {
     const LimbSpan divisor = value.denominator;
     const long zeros = count_low_zeros(divisor);
     if (head_of(divisor).length - zeros <= GMP_NUMB_BITS) {
-      return set_quotient(result, shifted(value.numerator, shift_ - zeros),
-                          shifted_limb(divisor, zeros));
+      const ShortDivisor& odd = short_divisor(shifted_limb(divisor, zeros));
+      return set_quotient(result, shifted(value.numerator, shift_ - zeros + odd.shift()), odd);
     }
     if (shift_ >= 0) {
       return set_quotient(result, shifted(value.numerator, shift_).limbs, divisor);
@@ -135,18 +180,19 @@ class GridScaling {
     return low | value[whole + 1] << (GMP_NUMB_BITS - rest);
   }
 
+  const ShortDivisor& short_divisor(mp_limb_t divisor) {
+    constexpr mp_limb_t spread = 0x9e3779b97f4a7c15U;
+    ShortDivisor& known = divisors_[divisor * spread >> 60U];
+    if (known.divisor() != divisor) known = ShortDivisor(divisor);
+    return known;
+  }
+
   // The numerator may have been cut: what is cut off twice is cut off as by one division.
-  bool set_quotient(Limbs result, const Cut& numerator, mp_limb_t divisor) {
-    const LimbSpan limbs = numerator.limbs;
-    if (limbs.empty()) {
-      set(result, LimbSpan());
-      return numerator.whole;
-    }
-    mp_limb_t* const quotient = quotient_.of(limbs.size());
-    const mp_limb_t remainder =
-        mpn_divrem_1(quotient, 0, limbs.data(), static_cast<mp_size_t>(limbs.size()), divisor);
-    set(result, {quotient, limbs.size()});
-    return numerator.whole && remainder == 0;
+  bool set_quotient(Limbs result, const Cut& numerator, const ShortDivisor& divisor) {
+    mp_limb_t* const quotient = quotient_.of(numerator.limbs.size());
+    const bool divides = divisor.divide(quotient, numerator.limbs);
+    set(result, {quotient, numerator.limbs.size()});
+    return numerator.whole && divides;
   }
 
   bool set_quotient(Limbs result, LimbSpan numerator, LimbSpan divisor) {
@@ -194,6 +240,7 @@ class GridScaling {
   }
 
   long shift_;
+  std::array<ShortDivisor, 16> divisors_;  // by the upper bits of a hash
   Room shifted_;
   Room quotient_;
   Room remainder_;
