@@ -17,6 +17,16 @@ namespace {
 
 __extension__ using Wide = unsigned __int128;
 
+// As head_of of the limbs, without a call of the library. REQUIRES a value that is not zero
+Head integer_head(const Integer& value) {
+  const auto size = static_cast<mp_size_t>(mpz_size(value.get_mpz_t()));
+  const std::uint64_t top = mpz_getlimbn(value.get_mpz_t(), size - 1);
+  const std::uint64_t next = mpz_getlimbn(value.get_mpz_t(), size - 2);  // 0 if there is none
+  const int zeros = std::countl_zero(top);
+  return {top << zeros | next >> 1U >> (63 - zeros),
+          static_cast<long>(size) * GMP_NUMB_BITS - zeros};
+}
+
 // mantissa * 2^-shift, the mantissa of 63 or 64 bits. Where bits were cut off, the last bit is one:
 // it lies below every position at which a double is rounded (round to odd).
 struct Leading {
@@ -144,6 +154,12 @@ NearestDouble round_to_nearest(const Rational& number) {
     if ((above | below) >> std::numeric_limits<double>::digits == 0) {
       const double magnitude = static_cast<double>(above) / static_cast<double>(below);
       return {sgn(numerator) < 0 ? -magnitude : magnitude, (below & (below - 1U)) == 0};
+    }
+  }
+  // A power of two has but one bit: most other denominators are told from one by their heads.
+  if (const Head below = integer_head(denominator); below.bits << 1U != 0 && sgn(numerator) != 0) {
+    if (const auto quotient = quotient_of_heads(integer_head(numerator), below)) {
+      return {sgn(numerator) < 0 ? -*quotient : *quotient, false};
     }
   }
   return round_to_nearest(view_of(number));
