@@ -74,6 +74,7 @@ LocalPlace CellEvaluator::local_form_of_mesh(std::span<const CellFacet> facets) 
 
 void CellEvaluator::order_primitives_for(const CellFacet& facet) {
   order_.clear();
+  not_coplanar_.clear();
   const auto has_coplanar_facet = [&](const LocalPrimitive& local) {
     const auto planes = std::span(planes_).subspan(local.first_facet, local.facet_count);
     return std::any_of(planes.begin(), planes.end(), [&](const NearPlane& near) {
@@ -81,12 +82,11 @@ void CellEvaluator::order_primitives_for(const CellFacet& facet) {
     });
   };
   for (std::uint32_t i = 0; i < locals_.size(); ++i) {
-    if (locals_[i].primitive != facet.primitive) order_.push_back(i);
+    if (locals_[i].primitive == facet.primitive) continue;
+    (has_coplanar_facet(locals_[i]) ? order_ : not_coplanar_).push_back(i);
   }
-  const auto rest = std::stable_partition(order_.begin(), order_.end(), [&](std::uint32_t i) {
-    return has_coplanar_facet(locals_[i]);
-  });
-  coplanar_count_ = static_cast<std::size_t>(rest - order_.begin());
+  coplanar_count_ = order_.size();
+  order_.insert(order_.end(), not_coplanar_.begin(), not_coplanar_.end());
 }
 
 bool CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree& tree,

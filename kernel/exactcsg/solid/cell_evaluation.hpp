@@ -148,6 +148,7 @@ class CellEvaluator {
   std::vector<LocalNode> nodes_;
   std::vector<LocalPrimitive> locals_;
   std::vector<std::uint32_t> order_;  // indices into locals_, those coplanar with the facet first
+  std::vector<std::uint32_t> not_coplanar_;  // the rest of it
   std::size_t coplanar_count_ = 0;
   SectionStore store_;
   std::vector<Crossing> crossings_;
