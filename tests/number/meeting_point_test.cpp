@@ -116,6 +116,31 @@ TEST(MeetingPoint, OfAnEdgeAlongAnAxis) {
   EXPECT_GT(compared, 300);
 }
 
+// The corner of three planes across the axes has the coordinate of each.
+TEST(MeetingPoint, OfPlanesAcrossTheAxes) {
+  RandomPoints random(4);
+  for (int round = 0; round < 60; ++round) {
+    const Point3 corner = random(round % 6);
+    Geometry::Builder builder;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::array<Point3, 3> points{random(0), random(0), random(0)};
+      points[0].x += 10;
+      points[0].y += 20;
+      points[0].z += 30;
+      points[1].x -= 10;
+      points[1].z += 40;
+      for (Point3& p : points) {
+        (axis == 0 ? p.x : axis == 1 ? p.y : p.z) = coordinate(corner, axis);
+      }
+      builder.add_plane(builder.add_point(points[0]), builder.add_point(points[1]),
+                        builder.add_point(points[2]));
+    }
+    const Geometry geometry = std::move(builder).build();
+    const auto plane = [&](std::uint32_t i) { return geometry.plane(i).plane; };
+    expect_near_point(geometry.exact_view(geometry.meet(plane(2), plane(0), plane(1))), corner);
+  }
+}
+
 TEST(MeetingPoint, OfFacetsOfTetrahedra) {
   RandomPoints random(2);
   int compared = 0;

@@ -109,6 +109,23 @@ std::optional<PointId> point_across(const Geometry::Data& data, std::uint32_t pl
   return PointId{points.front()};
 }
 
+// The meeting point of planes across the three axes, each of which gives its coordinate.
+std::optional<NearPointView> corner_of_axes(const Geometry::Data& data, const Vertex& v) {
+  NearPointView result;
+  std::array<bool, 3> copied{};
+  for (const PlaneRef plane : v.planes) {
+    if (plane.is_wall()) return std::nullopt;
+    const auto axis = exact_axis(data.planes.approximate()[plane.table_index()]);
+    const auto points = data.points_of_planes.row(plane.table_index());
+    if (!axis || points.empty()) return std::nullopt;
+    const auto i = static_cast<std::size_t>(*axis);
+    copy_coordinate(data, PointId{points.front()}, i, result);
+    copied[i] = true;
+  }
+  if (!copied[0] || !copied[1] || !copied[2]) return std::nullopt;
+  return result;
+}
+
 // Where a line through two input points meets a plane.
 NearPointView meet_line(const Geometry::Data& data, const PointPair& line, std::uint32_t plane) {
   NearPointView result;
@@ -143,6 +160,7 @@ NearPointView Geometry::exact_view(const Vertex& v) const {
     for (std::size_t axis = 0; axis < 3; ++axis) copy_coordinate(*data_, v.point, axis, result);
     return result;
   }
+  if (const auto corner = corner_of_axes(*data_, v)) return *corner;
   for (std::size_t i = 0; i < 3; ++i) {
     const PlaneRef plane = v.planes[i];
     if (plane.is_wall()) continue;
