@@ -88,5 +88,38 @@ TEST(Clusters, WhatIsNotFiniteMeetsEverything) {
   }
 }
 
+// Points, and meeting points of walls, of which one is there twice and is a point as well.
+// LAW interning.1
+TEST(InternedVertices, ThoseThatStandAloneHaveNumbersOfTheirOwn) {
+  Geometry::Builder builder;
+  for (int i = 0; i < 6; ++i) builder.add_point({i, 0, 0});
+  const Geometry geometry = std::move(builder).build();
+  const auto corner = [&](double x) {
+    return geometry.meet(PlaneRef::of_wall(Axis::X, x), PlaneRef::of_wall(Axis::Y, 0),
+                         PlaneRef::of_wall(Axis::Z, 0));
+  };
+  const std::vector<Vertex> corners{corner(1), corner(7), corner(1), corner(8), corner(9)};
+  CornerVertices vertices;
+  for (const Vertex& vertex : corners) vertices.meeting_points.push_back(&vertex);
+  using enum Occurrence;
+  vertices.meeting_point_occurs = {Some, Alone, Some, None, Some};
+  vertices.point_occurs = {Alone, Some, None, Some, Alone, None};
+  for (const unsigned threads : {1U, 2U}) {
+    TierStatistics statistics;
+    const InternedVertices interned = intern(geometry, vertices, statistics, threads);
+    // x = 1 three times, 7, 9, and the points 0, 3, 4.
+    EXPECT_EQ(interned.distinct.size(), 6U);
+    const auto x_of = [&](std::uint32_t number) { return interned.distinct[number].x; };
+    for (const std::size_t i : {0U, 1U, 2U, 4U}) {
+      EXPECT_EQ(x_of(interned.number_of_meeting_point[i]), corners[i].x);
+    }
+    for (const std::size_t i : {0U, 1U, 3U, 4U}) {
+      EXPECT_EQ(x_of(interned.number_of_point[i]), static_cast<double>(i));
+    }
+    EXPECT_EQ(interned.number_of_meeting_point[0], interned.number_of_point[1]);
+    EXPECT_TRUE(interned.distinct[interned.number_of_point[1]].is_point);
+  }
+}
+
 }  // namespace
 }  // namespace exactcsg

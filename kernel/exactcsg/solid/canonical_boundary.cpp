@@ -19,6 +19,7 @@
 #include "exactcsg/solid/line_interning.hpp"
 #include "exactcsg/solid/line_sum.hpp"
 #include "exactcsg/solid/nearest_crossing.hpp"
+#include "exactcsg/solid/ordered_vertices.hpp"
 #include "exactcsg/solid/per_thread.hpp"
 #include "exactcsg/solid/settled_facets.hpp"
 #include "exactcsg/solid/vertex_interning.hpp"
@@ -43,56 +44,6 @@ struct PieceEdge {
   VertexNumber from;
   VertexNumber to;
   PieceNumber piece;
-};
-
-// Indices of points, whose nearest doubles are known, in lexicographic order. Rounding to nearest
-// is monotone: the doubles sort all but runs of equal ones, and of these it is enough to know that
-// their exact numbers are equal too, as nearly all are.
-class LexicographicOrder {
- public:
-  LexicographicOrder(const std::vector<std::array<double, 3>>& nearest, const ExactPoints& exact)
-      : nearest_(nearest), exact_(exact) {}
-
-  void sort(std::vector<std::uint32_t>& order, unsigned threads) const {
-    const auto x = [this](std::uint32_t i) { return nearest_[i][0]; };
-    const DoubleBuckets buckets(order, x, threads);
-    sort_in_buckets(
-        order, buckets.count(), [&](std::uint32_t i) { return buckets.of(x(i)); },
-        [this](std::uint32_t i, std::uint32_t j) { return nearest_[i] < nearest_[j]; }, threads);
-    const Parts parts(order.size(), [&](std::size_t i) { return x(order[i]) != x(order[i - 1]); });
-    in_parallel(threads, parts, [&](std::size_t, std::size_t begin, std::size_t end) {
-      settle(std::span(order).subspan(begin, end - begin), 0);
-    });
-  }
-
- private:
-  // The coordinates before `axis` are equal, and the rest is sorted by doubles.
-  void settle(std::span<std::uint32_t> run, std::size_t axis) const {
-    for (std::size_t begin = 0; begin < run.size();) {
-      std::size_t end = begin + 1;
-      while (end < run.size() && nearest_[run[end]][axis] == nearest_[run[begin]][axis]) ++end;
-      const auto equals = run.subspan(begin, end - begin);
-      if (equals.size() > 1) {
-        if (axis < 2 && are_equal(equals, axis)) {
-          settle(equals, axis + 1);
-        } else {
-          std::sort(equals.begin(), equals.end(), [this](std::uint32_t i, std::uint32_t j) {
-            return compare(exact_.view(i), exact_.view(j)) < 0;
-          });
-        }
-      }
-      begin = end;
-    }
-  }
-
-  bool are_equal(std::span<const std::uint32_t> run, std::size_t axis) const {
-    const RationalView first = exact_.view(run.front())[axis];
-    return std::all_of(run.begin() + 1, run.end(),
-                       [&](std::uint32_t i) { return equal(first, exact_.view(i)[axis]); });
-  }
-
-  const std::vector<std::array<double, 3>>& nearest_;
-  const ExactPoints& exact_;
 };
 
 // Part of a line that bounds pieces of one oriented plane on one side only.
@@ -1264,7 +1215,10 @@ class Merger {
   Boundary assemble() {
     FaceParts faces = face_parts();
     Boundary boundary;
-    const std::vector<VertexNumber> renumbered = set_vertices(boundary);
+    OrderedVertices ordered = ordered_vertices(geometry_, vertices_, is_vertex_, threads_);
+    boundary.vertices = std::move(ordered.exact);
+    boundary.approximate = std::move(ordered.nearest);
+    const std::vector<VertexNumber>& renumbered = ordered.number;
     give_up(vertices_);
     check();
     set_edges(faces, renumbered, boundary);
@@ -1323,68 +1277,6 @@ class Merger {
         [](const BoundaryEdge& edge) { return edge.from; }, std::less<>(), threads_);
     boundary.edges.erase(std::unique(boundary.edges.begin(), boundary.edges.end()),
                          boundary.edges.end());
-  }
-
-  // The vertices that are used, nearly in lexicographic order: points that are neighbours there lie
-  // side by side in memory, too.
-  std::vector<VertexNumber> used_vertices() const {
-    std::vector<VertexNumber> used;
-    used.reserve(vertices_.size());
-    for (VertexNumber v = 0; v < vertices_.size(); ++v) {
-      if (is_vertex_[v]) used.push_back(v);
-    }
-    const auto x = [this](VertexNumber v) { return vertices_[v].x; };
-    const DoubleBuckets buckets(used, x, threads_);
-    sort_in_buckets(
-        used, buckets.count(), [&](VertexNumber v) { return buckets.of(x(v)); },
-        [this](VertexNumber a, VertexNumber b) {
-          const Vertex& p = vertices_[a];
-          const Vertex& q = vertices_[b];
-          return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
-        },
-        threads_);
-    return used;
-  }
-
-  struct Positions {
-    ExactPoints exact;
-    std::vector<std::array<double, 3>> nearest;
-  };
-
-  Positions positions_of(const std::vector<VertexNumber>& used) const {
-    Positions positions;
-    positions.nearest.resize(used.size());
-    const Parts parts(used.size());
-    std::vector<ExactPoints> exact(parts.count());
-    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      exact[part].reserve(end - begin);
-      for (std::size_t i = begin; i < end; ++i) {
-        const NearPointView point = geometry_.exact_view(vertices_[used[i]]);
-        exact[part].push_back(point.exact);
-        positions.nearest[i] = point.nearest;
-      }
-    });
-    positions.exact.reserve(used.size());
-    for (ExactPoints& points : exact) positions.exact.append(std::move(points));
-    return positions;
-  }
-
-  // Sets boundary.vertices and boundary.approximate. The new number of each vertex.
-  std::vector<VertexNumber> set_vertices(Boundary& boundary) const {
-    const std::vector<VertexNumber> used = used_vertices();
-    Positions positions = positions_of(used);
-    std::vector<std::uint32_t> order(used.size());
-    std::iota(order.begin(), order.end(), 0U);
-    LexicographicOrder(positions.nearest, positions.exact).sort(order, threads_);
-    std::vector<VertexNumber> renumbered(vertices_.size(), none);
-    boundary.approximate.reserve(order.size());
-    for (const std::uint32_t i : order) {
-      renumbered[used[i]] = static_cast<VertexNumber>(boundary.approximate.size());
-      boundary.approximate.push_back(positions.nearest[i]);
-    }
-    positions.exact.reorder(order);
-    boundary.vertices = std::move(positions.exact);
-    return renumbered;
   }
 
   const Scene& scene_;

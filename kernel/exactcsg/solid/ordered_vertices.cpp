@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exactcsg/solid/ordered_vertices.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/solid/in_parallel.hpp"
+
+namespace exactcsg {
+
+namespace {
+
+// Indices of points, whose nearest doubles are known, in lexicographic order. Rounding to nearest
+// is monotone: the doubles sort all but runs of equal ones, and of these it is enough to know that
+// their exact numbers are equal too, as nearly all are.
+class LexicographicOrder {
+ public:
+  LexicographicOrder(const std::vector<std::array<double, 3>>& nearest, const ExactPoints& exact)
+      : nearest_(nearest), exact_(exact) {}
+
+  void sort(std::vector<std::uint32_t>& order, unsigned threads) const {
+    const auto x = [this](std::uint32_t i) { return nearest_[i][0]; };
+    const DoubleBuckets buckets(order, x, threads);
+    sort_in_buckets(
+        order, buckets.count(), [&](std::uint32_t i) { return buckets.of(x(i)); },
+        [this](std::uint32_t i, std::uint32_t j) { return nearest_[i] < nearest_[j]; }, threads);
+    const Parts parts(order.size(), [&](std::size_t i) { return x(order[i]) != x(order[i - 1]); });
+    in_parallel(threads, parts, [&](std::size_t, std::size_t begin, std::size_t end) {
+      settle(std::span(order).subspan(begin, end - begin), 0);
+    });
+  }
+
+ private:
+  // The coordinates before `axis` are equal, and the rest is sorted by doubles.
+  void settle(std::span<std::uint32_t> run, std::size_t axis) const {
+    for (std::size_t begin = 0; begin < run.size();) {
+      std::size_t end = begin + 1;
+      while (end < run.size() && nearest_[run[end]][axis] == nearest_[run[begin]][axis]) ++end;
+      const auto equals = run.subspan(begin, end - begin);
+      if (equals.size() > 1) {
+        if (axis < 2 && are_equal(equals, axis)) {
+          settle(equals, axis + 1);
+        } else {
+          std::sort(equals.begin(), equals.end(), [this](std::uint32_t i, std::uint32_t j) {
+            return compare(exact_.view(i), exact_.view(j)) < 0;
+          });
+        }
+      }
+      begin = end;
+    }
+  }
+
+  bool are_equal(std::span<const std::uint32_t> run, std::size_t axis) const {
+    const RationalView first = exact_.view(run.front())[axis];
+    return std::all_of(run.begin() + 1, run.end(),
+                       [&](std::uint32_t i) { return equal(first, exact_.view(i)[axis]); });
+  }
+
+  const std::vector<std::array<double, 3>>& nearest_;
+  const ExactPoints& exact_;
+};
+
+struct Approximated {
+  std::array<double, 3> at;
+  std::uint32_t vertex;
+};
+
+// Those that are wanted, nearly in lexicographic order: points that are neighbours there are to lie
+// side by side in memory, too.
+std::vector<Approximated> wanted_vertices(std::span<const Vertex> vertices,
+                                          std::span<const unsigned char> is_wanted,
+                                          unsigned threads) {
+  std::vector<Approximated> wanted;
+  wanted.reserve(vertices.size());
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+    if (is_wanted[v]) wanted.push_back({{vertices[v].x, vertices[v].y, vertices[v].z}, v});
+  }
+  const auto x = [](const Approximated& vertex) { return vertex.at[0]; };
+  const DoubleBuckets buckets(wanted, x, threads);
+  sort_in_buckets(
+      wanted, buckets.count(), [&](const Approximated& vertex) { return buckets.of(x(vertex)); },
+      [](const Approximated& a, const Approximated& b) {
+        return a.at != b.at ? a.at < b.at : a.vertex < b.vertex;
+      },
+      threads);
+  return wanted;
+}
+
+struct Positions {
+  ExactPoints exact;
+  std::vector<std::array<double, 3>> nearest;
+};
+
+Positions positions_of(const Geometry& geometry, std::span<const Vertex> vertices,
+                       std::span<const Approximated> wanted, unsigned threads) {
+  Positions positions;
+  positions.nearest.resize(wanted.size());
+  const Parts parts(wanted.size());
+  std::vector<ExactPoints> exact(parts.count());
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    exact[part].reserve(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      const NearPointView point = geometry.exact_view(vertices[wanted[i].vertex]);
+      exact[part].push_back(point.exact);
+      positions.nearest[i] = point.nearest;
+    }
+  });
+  positions.exact.reserve(wanted.size());
+  for (ExactPoints& points : exact) positions.exact.append(std::move(points));
+  return positions;
+}
+
+}  // namespace
+
+OrderedVertices ordered_vertices(const Geometry& geometry, std::span<const Vertex> vertices,
+                                 std::span<const unsigned char> is_wanted, unsigned threads) {
+  const std::vector<Approximated> wanted = wanted_vertices(vertices, is_wanted, threads);
+  Positions positions = positions_of(geometry, vertices, wanted, threads);
+  std::vector<std::uint32_t> order(wanted.size());
+  std::iota(order.begin(), order.end(), 0U);
+  LexicographicOrder(positions.nearest, positions.exact).sort(order, threads);
+  OrderedVertices result;
+  result.number.assign(vertices.size(), OrderedVertices::none);
+  result.nearest.reserve(order.size());
+  for (const std::uint32_t i : order) {
+    result.number[wanted[i].vertex] = static_cast<std::uint32_t>(result.nearest.size());
+    result.nearest.push_back(positions.nearest[i]);
+  }
+  positions.exact.reorder(order);
+  result.exact = std::move(positions.exact);
+  return result;
+}
+
+}  // namespace exactcsg
