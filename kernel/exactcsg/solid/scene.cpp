@@ -502,34 +502,13 @@ class SceneBuilder {
       scene.corners[shape.first_corner + i] = {points_[shape.first_point + kind.corners[i]],
                                                side.table_index()};
     }
-    const std::array<Range, 3> bounds =
-        bounds_of(geometry, std::span(scene.corners).subspan(first, end - begin));
-    for (std::size_t axis = 0; axis < 3; ++axis) scene.bounds.facets[axis][f] = bounds[axis];
+    set_bounds(scene, f);
   }
 
-  static std::array<Range, 3> bounds_of(const Geometry& geometry,
-                                        std::span<const PointCorner> corners) {
-    Range x;
-    Range y;
-    Range z;
-    double error = 0;
-    const auto include = [](Range& range, double value) {
-      range.lower = std::min(range.lower, value);
-      range.upper = std::max(range.upper, value);
-    };
-    for (const PointCorner& corner : corners) {
-      const ApproximatePoint& near = geometry.approximate(corner.point);
-      include(x, near.x);
-      include(y, near.y);
-      include(z, near.z);
-      error = std::max(error, near.error);
-    }
-    // Widened by two units in the last place, for the rounding of this very sum.
-    const auto widened = [error](const Range& range) -> Range {
-      const double slack = error + 0x1p-51 * std::max(std::abs(range.lower), std::abs(range.upper));
-      return {range.lower - slack, range.upper + slack};
-    };
-    return {widened(x), widened(y), widened(z)};
+  static void set_bounds(Scene& scene, FacetIndex f) {
+    std::array<Range, 3> bounds;
+    widen(bounds, scene.corners_of(f));
+    for (std::size_t axis = 0; axis < 3; ++axis) scene.bounds.facets[axis][f] = bounds[axis];
   }
 
   static void set_bounds_of_primitives(Scene& scene) {
@@ -733,9 +712,7 @@ class SceneBuilder {
     append_half_space_polygon(scene, facet.plane);
     facet.corner_count =
         static_cast<std::uint32_t>(scene.half_space_corners.size()) - facet.first_corner;
-    std::array<Range, 3> bounds;
-    widen(bounds, scene.corners_of(facet));
-    for (std::size_t axis = 0; axis < 3; ++axis) scene.bounds.facets[axis][f] = bounds[axis];
+    set_bounds(scene, f);
   }
 
   // The plane clipped to the root cell: a parallelogram between the walls of the two axes that the
@@ -802,19 +779,26 @@ class SceneBuilder {
 }  // namespace
 
 void widen(std::array<Range, 3>& bounds, const CornerView& corners) {
-  std::array<Range, 3> result = bounds;
-  const auto widen_range = [](Range& range, double value, double error) {
-    // Widened by two units in the last place, for the rounding of this very sum.
-    const double slack = error + 0x1p-51 * std::abs(value);
-    range.lower = std::min(range.lower, value - slack);
-    range.upper = std::max(range.upper, value + slack);
+  if (corners.size() == 0) return;
+  std::array<Range, 3> near;
+  double error = 0;
+  const auto include = [](Range& range, double value) {
+    range.lower = std::min(range.lower, value);
+    range.upper = std::max(range.upper, value);
   };
   corners.for_each_vertex([&](std::size_t, const Vertex& vertex) {
-    widen_range(result[0], vertex.x, vertex.error);
-    widen_range(result[1], vertex.y, vertex.error);
-    widen_range(result[2], vertex.z, vertex.error);
+    include(near[0], vertex.x);
+    include(near[1], vertex.y);
+    include(near[2], vertex.z);
+    error = std::max(error, vertex.error);
   });
-  bounds = result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [lower, upper] = near[axis];
+    // Widened by two units in the last place, for the rounding of this very sum.
+    const double slack = error + 0x1p-51 * std::max(std::abs(lower), std::abs(upper));
+    include(bounds[axis], lower - slack);
+    include(bounds[axis], upper + slack);
+  }
 }
 
 Vertex between_walls(const Geometry& geometry, const std::array<double, 3>& place) {
