@@ -48,7 +48,7 @@ struct EvaluationStatistics {
   std::uint64_t facets = 0;           // of all primitives
   std::uint64_t cells = 0;            // leaves of the decomposition
   std::uint64_t evaluated_cells = 0;  // of these, cells that needed two-sided classification
-  std::uint64_t pieces = 0;           // convex pieces of boundary before merging
+  std::uint64_t pieces = 0;           // parts of facets that are boundary, before merging
 };
 
 struct Boundary {

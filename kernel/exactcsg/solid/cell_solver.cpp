@@ -77,7 +77,7 @@ void CellSolver::emit_primitive(const CellTask& cell, PieceCollector& result) co
   }
 }
 
-// Whether a facet may have a corner in a wall that did not cut it, or a primitive meets itself.
+// Whether a facet may have a corner in a wall that did not cut it, or its primitive meets itself.
 bool CellSolver::touches_walls(const CellTask& task) const {
   const Cell& cell = task.cell;
   const auto is_inside = [&](FacetIndex facet) {
