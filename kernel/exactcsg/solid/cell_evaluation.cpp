@@ -430,6 +430,7 @@ void CellEvaluator::descend(Part part, LocalPlace front, LocalPlace behind, Cros
     };
     const PlaneSplit side = split(part.polygon, node.plane);
     if (side == PlaneSplit::Both) {
+      in_general_position_ = false;
       const auto [positive, negative] = halves(part, node.plane);
       descend(positive, follow(front, true), follow(behind, true), crossings);
       descend(negative, follow(front, false), follow(behind, false), crossings);

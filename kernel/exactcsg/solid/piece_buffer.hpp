@@ -8,13 +8,15 @@
 //
 // LAW pieces.3  a cell is in general position if in all signs that deciding it took no corner of
 //               a facet lay in a plane or a wall by chance, being no meeting point of it, no facets
-//               of two primitives are coplanar in it, and no primitive in it meets itself. Then the
-//               edges of its pieces have no point in common but common ends, and two of them lie on
-//               one line only if they lie in the same two planes: where edges p q and r s of
-//               different primitives meet, a facet in p has a corner in p, q and r (or a cut makes
-//               one) whose side of s is asked for, since nothing has settled yet whether it is
-//               inside the other primitive; and a point of contact on a wall lies in both cells,
-//               or in an edge that lies in the wall.
+//               of two primitives are coplanar in it, no primitive in it meets itself, and no plane
+//               of a mesh cut a facet: the planes of one mesh may have a line or a point of the
+//               facet in common by chance, and not all of them are asked for. Then the edges of its
+//               pieces have no point in common but common ends, and two of them lie on one line
+//               only if they lie in the same two planes: where edges p q and r s of different
+//               primitives meet, a facet in p has a corner in p, q and r (or a cut makes one) whose
+//               side of s is asked for, since nothing has settled yet whether it is inside the
+//               other primitive; and a point of contact on a wall lies in both cells, or in an edge
+//               that lies in the wall.
 
 #include <cstddef>
 #include <cstdint>
