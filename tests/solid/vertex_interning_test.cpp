@@ -101,7 +101,7 @@ TEST(InternedVertices, ThoseThatStandAloneHaveNumbersOfTheirOwn) {
   const std::vector<Vertex> corners{corner(1), corner(7), corner(1), corner(8), corner(9)};
   CornerVertices vertices;
   for (const Vertex& vertex : corners) vertices.meeting_points.push_back(&vertex);
-  using enum Occurrence;
+  using enum CornerOccurrence;
   vertices.meeting_point_occurs = {Some, Alone, Some, None, Some};
   vertices.point_occurs = {Alone, Some, None, Some, Alone, None};
   for (const unsigned threads : {1U, 2U}) {

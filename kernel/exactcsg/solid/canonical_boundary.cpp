@@ -306,13 +306,13 @@ class Merger {
   // cell shares with others only what its walls make.
   CornerVertices vertices_of(const PieceRow& pieces) const {
     CornerVertices result;
-    result.point_occurs.assign(geometry_.point_count(), Occurrence::None);
+    result.point_occurs.assign(geometry_.point_count(), CornerOccurrence::None);
     result.meeting_points.assign(pieces.meeting_point_count(), nullptr);
-    result.meeting_point_occurs.assign(pieces.meeting_point_count(), Occurrence::None);
+    result.meeting_point_occurs.assign(pieces.meeting_point_count(), CornerOccurrence::None);
     const auto add = [&](const PieceBuffer& buffer, std::size_t first_meeting_point,
                          const BoundaryPiece& piece, PieceNumber) {
-      const Occurrence occurrence =
-          piece.in_general_position ? Occurrence::Alone : Occurrence::Some;
+      const CornerOccurrence occurrence =
+          piece.in_general_position ? CornerOccurrence::Alone : CornerOccurrence::Some;
       if (piece.share == facet_share::whole) {
         for (const PointCorner& corner : corners_of_facet(piece)) {
           note(occurrence, result.point_occurs[static_cast<std::uint32_t>(corner.point)]);
@@ -325,7 +325,7 @@ class Merger {
         } else {
           const std::size_t place = first_meeting_point + corner.vertex;
           const Vertex& vertex = buffer.meeting_points[corner.vertex];
-          note(is_on_wall(vertex) ? Occurrence::Some : occurrence,
+          note(is_on_wall(vertex) ? CornerOccurrence::Some : occurrence,
                result.meeting_point_occurs[place]);
           std::atomic_ref(result.meeting_points[place]).store(&vertex, std::memory_order_relaxed);
         }
@@ -343,9 +343,9 @@ class Merger {
   }
 
   // The greatest of all that is noted; several threads may do so at once.
-  static void note(Occurrence occurrence, Occurrence& noted) {
+  static void note(CornerOccurrence occurrence, CornerOccurrence& noted) {
     const std::atomic_ref shared(noted);
-    Occurrence known = shared.load(std::memory_order_relaxed);
+    CornerOccurrence known = shared.load(std::memory_order_relaxed);
     while (known < occurrence &&
            !shared.compare_exchange_weak(known, occurrence, std::memory_order_relaxed)) {
     }

@@ -71,7 +71,7 @@ class Items {
   std::size_t count() const { return meeting_points_ + vertices_.point_occurs.size(); }
   bool is_point(std::uint32_t item) const { return item >= meeting_points_; }
   std::uint32_t id(std::uint32_t item) const { return item - meeting_points_; }
-  Occurrence occurrence(std::uint32_t item) const {
+  CornerOccurrence occurrence(std::uint32_t item) const {
     return is_point(item) ? vertices_.point_occurs[id(item)] : vertices_.meeting_point_occurs[item];
   }
   Vertex vertex(std::uint32_t item) const {
@@ -91,7 +91,7 @@ std::vector<KeyInterval> keys_of(const Items& items, unsigned threads) {
     keys[part].reserve(end - begin);
     for (std::size_t i = begin; i < end; ++i) {
       const auto item = static_cast<std::uint32_t>(i);
-      if (items.occurrence(item) != Occurrence::Some) continue;
+      if (items.occurrence(item) != CornerOccurrence::Some) continue;
       keys[part].push_back(key_of(items.vertex(item), item));
     }
   });
@@ -107,7 +107,7 @@ void append_alone(const Items& items, unsigned threads, const NumberOf& number_o
   in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     std::size_t count = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      if (items.occurrence(static_cast<std::uint32_t>(i)) == Occurrence::Alone) ++count;
+      if (items.occurrence(static_cast<std::uint32_t>(i)) == CornerOccurrence::Alone) ++count;
     }
     firsts[part + 1] = count;
   });
@@ -118,7 +118,7 @@ void append_alone(const Items& items, unsigned threads, const NumberOf& number_o
     auto next = static_cast<std::uint32_t>(firsts[part]);
     for (std::size_t i = begin; i < end; ++i) {
       const auto item = static_cast<std::uint32_t>(i);
-      if (items.occurrence(item) != Occurrence::Alone) continue;
+      if (items.occurrence(item) != CornerOccurrence::Alone) continue;
       distinct[next] = items.vertex(item);
       number_of(item) = next++;
     }

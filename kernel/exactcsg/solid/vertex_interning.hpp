@@ -58,7 +58,7 @@ class Clusters {
 };
 
 // What is known of a corner of pieces before anything is compared.
-enum class Occurrence : unsigned char {
+enum class CornerOccurrence : unsigned char {
   None,   // it is no corner of a piece
   Alone,  // no other has its position
   Some
@@ -67,8 +67,8 @@ enum class Occurrence : unsigned char {
 // Corners of pieces: meeting points, some of them more than once, and input points by id.
 struct CornerVertices {
   std::vector<const Vertex*> meeting_points;
-  std::vector<Occurrence> meeting_point_occurs;
-  std::vector<Occurrence> point_occurs;  // by id, of all points of the geometry
+  std::vector<CornerOccurrence> meeting_point_occurs;
+  std::vector<CornerOccurrence> point_occurs;  // by id, of all points of the geometry
 };
 
 struct InternedVertices {
