@@ -11,16 +11,16 @@
 #include <optional>
 #include <tuple>
 
-#include "exactcsg/solid/box_pairs.hpp"
 #include "exactcsg/solid/bucket_sort.hpp"
 #include "exactcsg/solid/disjoint_sets.hpp"
+#include "exactcsg/solid/edge_contacts.hpp"
 #include "exactcsg/solid/face_loops.hpp"
 #include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/line_interning.hpp"
 #include "exactcsg/solid/line_sum.hpp"
-#include "exactcsg/solid/nearest_crossing.hpp"
 #include "exactcsg/solid/ordered_vertices.hpp"
 #include "exactcsg/solid/per_thread.hpp"
+#include "exactcsg/solid/piece_row.hpp"
 #include "exactcsg/solid/settled_facets.hpp"
 #include "exactcsg/solid/vertex_interning.hpp"
 #include "exactcsg/support/give_up.hpp"
@@ -31,7 +31,6 @@ namespace {
 
 using VertexNumber = std::uint32_t;
 using LineNumber = std::uint32_t;
-using PieceNumber = std::uint32_t;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -100,43 +99,6 @@ struct SimpleEdge {
 struct SettledSide {
   VertexNumber from;
   bool settled;
-};
-
-// The pieces of all buffers in one row.
-class PieceRow {
- public:
-  explicit PieceRow(const std::vector<PieceBuffer>& buffers) : buffers_(buffers) {
-    for (const PieceBuffer& buffer : buffers) {
-      first_piece_.push_back(first_piece_.back() + buffer.pieces.size());
-      first_meeting_point_.push_back(first_meeting_point_.back() + buffer.meeting_points.size());
-    }
-  }
-
-  std::size_t size() const { return first_piece_.back(); }
-  std::size_t meeting_point_count() const { return first_meeting_point_.back(); }
-
-  // visit(buffer, place of its first meeting point among all, piece, number of the piece) for the
-  // pieces with these numbers.
-  template <class Visit>
-  void for_each(std::size_t begin, std::size_t end, Visit visit) const {
-    if (begin == end) return;
-    auto b =
-        static_cast<std::size_t>(std::upper_bound(first_piece_.begin(), first_piece_.end(), begin) -
-                                 first_piece_.begin() - 1);
-    for (std::size_t number = begin; number < end; ++b) {
-      const PieceBuffer& buffer = buffers_[b];
-      const std::size_t end_here = std::min(end, first_piece_[b + 1]);
-      for (; number < end_here; ++number) {
-        visit(buffer, first_meeting_point_[b], buffer.pieces[number - first_piece_[b]],
-              static_cast<PieceNumber>(number));
-      }
-    }
-  }
-
- private:
-  const std::vector<PieceBuffer>& buffers_;
-  std::vector<std::size_t> first_piece_{0};
-  std::vector<std::size_t> first_meeting_point_{0};
 };
 
 // For bytes that several threads may set at once.
@@ -802,19 +764,12 @@ class Merger {
     all.insert(all.end(), stations.begin(), stations.end());
   }
 
-  struct Span {
-    LineNumber line;  // lines_.size() + i: the settled edge i
-    VertexNumber from;
-    VertexNumber to;
-    std::uint32_t primitive;  // of one of whose edges it is a part, or none
-  };
-
-  // The parts of a line between neighbouring vertices that some segment covers, and settled edges;
-  // only what may be touched.
-  std::vector<Span> spans() {
+  // The parts of a line between neighbouring vertices that some segment covers, and settled edges,
+  // edge i of them with the line's number lines_.size() + i; only what may be touched.
+  std::vector<EdgeSpan> spans() {
     const Parts lines(content_.size());
     const Parts settled(settled_edges_.size());
-    std::vector<std::vector<Span>> result(lines.count() + settled.count());
+    std::vector<std::vector<EdgeSpan>> result(lines.count() + settled.count());
     in_parallel(threads_, lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
       std::vector<std::uint32_t>& rank = ranks();
       result[part].reserve(segment_count(begin, end));
@@ -826,40 +781,36 @@ class Merger {
       for (std::size_t i = begin; i < end; ++i) {
         const SettledEdge& edge = settled_edges_[i];
         if (!edge.may_be_touched) continue;
-        result[lines.count() + part].push_back(
-            {static_cast<LineNumber>(lines_.size() + i), edge.from, edge.to, edge.primitive});
+        result[lines.count() + part].push_back({{edge.first, edge.second},
+                                                static_cast<LineNumber>(lines_.size() + i),
+                                                edge.from,
+                                                edge.to,
+                                                edge.primitive});
       }
     });
     return joined(threads_, std::move(result));
   }
 
-  void add_spans(LineNumber line, std::vector<std::uint32_t>& rank, std::vector<Span>& result) {
+  void add_spans(LineNumber line, std::vector<std::uint32_t>& rank, std::vector<EdgeSpan>& result) {
     const auto first = static_cast<std::ptrdiff_t>(result.size());
+    const std::array<PlaneRef, 2> planes{lines_[line].first, lines_[line].second};
     for_each_run(line, rank, [&](const Run& run) {
       if (run.in_general_position) return;
       const auto [low, high] = std::minmax(run.from, run.to);
-      result.push_back({line, low, high, run.primitive});
+      result.push_back({planes, line, low, high, run.primitive});
     });
     // Any of the primitives will do; `none` sorts last.
-    const auto key = [](const Span& span) {
+    const auto key = [](const EdgeSpan& span) {
       return std::tuple(span.from, span.to, span.primitive);
     };
     std::ranges::sort(result.begin() + first, result.end(), {}, key);
-    const auto same_ends = [](const Span& a, const Span& b) {
+    const auto same_ends = [](const EdgeSpan& a, const EdgeSpan& b) {
       return a.from == b.from && a.to == b.to;
     };
     result.erase(std::unique(result.begin() + first, result.end(), same_ends), result.end());
   }
 
-  bool is_settled(const Span& span) const { return span.line >= lines_.size(); }
-  const SettledEdge& settled_edge(const Span& span) const {
-    return settled_edges_[span.line - lines_.size()];
-  }
-
-  std::array<PlaneRef, 2> planes_of(const Span& span) const {
-    if (is_settled(span)) return {settled_edge(span).first, settled_edge(span).second};
-    return {lines_[span.line].first, lines_[span.line].second};
-  }
+  bool is_settled(const EdgeSpan& span) const { return span.line >= lines_.size(); }
 
   // Segments of one oriented plane, joined where they continue one another and cut at vertices.
   struct Run {
@@ -930,36 +881,11 @@ class Merger {
   // Edges that only touch: a vertex on another edge, or two edges that cross. Edges of one
   // primitive need not be looked at.
   void touch_edges() {
-    std::vector<Span> all = spans();
+    std::vector<EdgeSpan> all = spans();
     sort_by_primitive(all);
-    std::vector<DoubleBox> boxes(all.size());
-    in_parallel_parts(threads_, all.size(), [&](std::size_t i) {
-      boxes[i] = join(box_of(vertices_[all[i].from]), box_of(vertices_[all[i].to]));
-    });
-    std::vector<std::uint32_t> group_begins;
-    for (std::uint32_t i = 0; i < all.size(); ++i) {
-      const Span& span = all[i];
-      if (i == 0 || span.primitive == none || span.primitive != all[i - 1].primitive) {
-        group_begins.push_back(i);
-      }
-    }
-    const GroupedBoxes grouped(boxes, group_begins);
-    // All threads look for points of contact; what they change is done in one order.
-    const std::vector<BoxHierarchy::Search> searches = grouped.hierarchy().searches();
-    std::vector<std::vector<Contact>> contacts(searches.size());
-    std::vector<TierStatistics> tiers(searches.size());
-    in_parallel(threads_, searches.size(), [&](std::size_t search) {
-      check();
-      TierStatistics tiers_here;
-      grouped.hierarchy().for_each_pair(searches[search], [&](std::uint32_t i, std::uint32_t j) {
-        add_contact(all[i], all[j], contacts[search], tiers_here);
-      });
-      tiers[search] = tiers_here;
-    });
-    for (const TierStatistics& part : tiers) statistics_ += part;
-    for (const std::vector<Contact>& found : contacts) {
-      for (const Contact& contact : found) set_contact(contact);
-    }
+    const std::vector<EdgeContact> contacts =
+        edge_contacts(geometry_, vertices_, all, statistics_, threads_, progress_);
+    set_contacts(all, contacts);
     for (auto& [line, touching] : touching_) {
       const std::span<const VertexNumber> stations = stations_of(line);
       touching.insert(touching.end(), stations.begin(), stations.end());
@@ -970,17 +896,17 @@ class Merger {
   }
 
   // Those of no primitive last.
-  void sort_by_primitive(std::vector<Span>& spans) const {
+  void sort_by_primitive(std::vector<EdgeSpan>& spans) const {
     const std::size_t primitives = scene_.primitives.size();
     const std::size_t lines = lines_.size() + settled_edges_.size();
     const std::size_t buckets_of_lines = std::max<std::size_t>(1, spans.size() / 2);
-    const auto bucket_of = [=](const Span& span) {
+    const auto bucket_of = [=](const EdgeSpan& span) {
       if (span.primitive != none) return std::size_t{span.primitive};
       return primitives + span.line * buckets_of_lines / lines;
     };
     sort_in_buckets(
         spans, primitives + buckets_of_lines, bucket_of,
-        [](const Span& a, const Span& b) {
+        [](const EdgeSpan& a, const EdgeSpan& b) {
           return std::tie(a.line, a.from, a.to) < std::tie(b.line, b.from, b.to);
         },
         threads_);
@@ -1000,7 +926,7 @@ class Merger {
   }
 
   // States that a vertex lies on a span.
-  void add_station(const Span& span, VertexNumber vertex) {
+  void add_station(const EdgeSpan& span, VertexNumber vertex) {
     if (!is_settled(span)) {
       touching_[span.line].push_back(vertex);
     } else if (vertex != span.from && vertex != span.to) {
@@ -1008,113 +934,47 @@ class Merger {
     }
   }
 
-  // A point that two spans have in common.
-  struct Contact {
-    Span a;
-    Span b;
-    Vertex point;
-    VertexNumber number;  // of an end of one of them; or none: in the middle of both
-  };
-
-  // The sides of a span's ends with respect to a plane.
-  std::array<Sign, 2> sides(const Span& span, PlaneRef plane, TierStatistics& statistics) const {
-    return {geometry_.side(vertices_[span.from], plane, statistics),
-            geometry_.side(vertices_[span.to], plane, statistics)};
+  void set_contacts(std::span<const EdgeSpan> spans, std::span<const EdgeContact> contacts) {
+    const std::vector<VertexNumber> numbers = numbers_of(contacts);
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      is_vertex_[numbers[i]] = 1;
+      add_station(spans[contacts[i].a], numbers[i]);
+      add_station(spans[contacts[i].b], numbers[i]);
+    }
   }
 
-  // Spans of one line may overlap where one of them is a settled edge, whose line has no number:
-  // where such a span ends inside another, so do edges of other directions, which touch it there.
-  void add_contact(const Span& a, const Span& b, std::vector<Contact>& result,
-                   TierStatistics& statistics) const {
-    if (a.line == b.line) return;
-    if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) return;
-    const std::array<PlaneRef, 2> planes_a = planes_of(a);
-    const std::array<PlaneRef, 2> planes_b = planes_of(b);
-    std::optional<PlaneRef> crossing;
-    std::array<Sign, 2> crossing_sides{};
-    for (const PlaneRef plane : planes_b) {
-      const auto side = sides(a, plane, statistics);
-      if (side[0] == side[1]) {
-        if (side[0] != Sign::Zero) return;
-        continue;
-      }
-      crossing = plane;
-      crossing_sides = side;
-    }
-    if (!crossing) return;
-    for (const PlaneRef plane : planes_a) {
-      const auto side = sides(b, plane, statistics);
-      if (side[0] == side[1] && side[0] != Sign::Zero) return;
-    }
-    // The point of a's line in the crossing plane; it is on b's line iff in b's other plane as
-    // well.
-    VertexNumber number = none;
-    Vertex point;
-    if (crossing_sides[0] == Sign::Zero) {
-      number = a.from;
-      point = vertices_[number];
-    } else if (crossing_sides[1] == Sign::Zero) {
-      number = a.to;
-      point = vertices_[number];
-    } else {
-      point = geometry_.meet(planes_a[0], planes_a[1], *crossing);
-    }
-    const PlaneRef other = *crossing == planes_b[0] ? planes_b[1] : planes_b[0];
-    if (geometry_.side(point, other, statistics) != Sign::Zero) return;
-    if (!within(point, b, statistics)) return;
-    for (const VertexNumber end : {b.from, b.to}) {
-      if (number == none && geometry_.same_position(point, vertices_[end], statistics)) {
-        number = end;
+  // Of the points of contact. One in the middle of two edges may be a station of a line that was no
+  // vertex so far; or it is a new one.
+  std::vector<VertexNumber> numbers_of(std::span<const EdgeContact> contacts) {
+    std::vector<VertexNumber> result(contacts.size(), none);
+    std::vector<Vertex> middles;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (contacts[i].end) {
+        result[i] = *contacts[i].end;
+      } else {
+        middles.push_back(contacts[i].point);
       }
     }
-    result.push_back({a, b, point, number});
-  }
-
-  void set_contact(const Contact& contact) {
-    const VertexNumber number =
-        contact.number == none ? known_touching_point(contact.point) : contact.number;
-    is_vertex_[number] = 1;
-    add_station(contact.a, number);
-    add_station(contact.b, number);
-  }
-
-  // Points of the line only; both ends included.
-  bool within(const Vertex& point, const Span& span, TierStatistics& statistics) const {
-    const auto low =
-        geometry_.compare_position(vertices_[span.from], vertices_[span.to], statistics) < 0
-            ? span.from
-            : span.to;
-    const VertexNumber high = low == span.from ? span.to : span.from;
-    return geometry_.compare_position(vertices_[low], point, statistics) <= 0 &&
-           geometry_.compare_position(point, vertices_[high], statistics) <= 0;
-  }
-
-  // Also finds points that are stations of a line but were no vertices so far.
-  VertexNumber known_touching_point(const Vertex& point) {
-    if (!touch_index_built_) {
-      touch_index_built_ = true;
-      by_x_.resize(vertices_.size());
-      std::iota(by_x_.begin(), by_x_.end(), 0U);
-      std::sort(by_x_.begin(), by_x_.end(),
-                [&](VertexNumber a, VertexNumber b) { return vertices_[a].x < vertices_[b].x; });
-      for (const Vertex& v : vertices_) widest_error_ = std::max(widest_error_, v.error);
+    if (middles.empty()) return result;
+    const VertexFinder known(geometry_, vertices_);
+    const VertexFinder equals(geometry_, middles);
+    std::vector<VertexNumber> number(middles.size(), none);  // of those that equals finds
+    std::size_t next = 0;
+    for (VertexNumber& wanted : result) {
+      if (wanted != none) continue;
+      const Vertex& point = middles[next++];
+      VertexNumber& here = number[*equals.find(point, middles, statistics_)];
+      if (here == none) {
+        here = known.find(point, vertices_, statistics_)
+                   .value_or(static_cast<VertexNumber>(vertices_.size()));
+      }
+      if (here == vertices_.size()) {
+        vertices_.push_back(point);
+        is_vertex_.push_back(0);
+      }
+      wanted = here;
     }
-    const double reach = 2 * (point.error + widest_error_) + 0x1p-50 * std::abs(point.x);
-    auto it = std::lower_bound(by_x_.begin(), by_x_.end(), point.x - reach,
-                               [&](VertexNumber a, double x) { return vertices_[a].x < x; });
-    for (; it != by_x_.end() && vertices_[*it].x <= point.x + reach; ++it) {
-      const Vertex& v = vertices_[*it];
-      if (std::abs(v.y - point.y) > 2 * (point.error + v.error) + 0x1p-50 * std::abs(v.y)) continue;
-      if (geometry_.same_position(v, point, statistics_)) return *it;
-    }
-    for (const VertexNumber number : added_) {
-      if (geometry_.same_position(vertices_[number], point, statistics_)) return number;
-    }
-    const auto number = static_cast<VertexNumber>(vertices_.size());
-    vertices_.push_back(point);
-    is_vertex_.push_back(0);
-    added_.push_back(number);
-    return number;
+    return result;
   }
 
   // A settled edge as one walks it from one end to the other, which is left out.
@@ -1303,10 +1163,6 @@ class Merger {
   std::vector<VertexNumber> stations_;
   std::vector<unsigned char> is_vertex_;
   PerThread<std::vector<std::uint32_t>> ranks_{[] { return std::vector<std::uint32_t>(); }};
-  bool touch_index_built_ = false;
-  std::vector<VertexNumber> by_x_;
-  std::vector<VertexNumber> added_;
-  double widest_error_ = 0;
 };
 
 }  // namespace
