@@ -58,6 +58,7 @@ TEST(Digest, DoesNotDependOnOrder) {
   std::vector<Point3> vertices = to_vector(b.vertices);
   std::reverse(vertices.begin(), vertices.end());
   shuffled.vertices = ExactPoints(vertices);
+  std::reverse(shuffled.approximate.begin(), shuffled.approximate.end());
   std::reverse(shuffled.edges.begin(), shuffled.edges.end());
   for (BoundaryEdge& e : shuffled.edges) e = {renamed(e.to), renamed(e.from)};
   std::reverse(shuffled.faces.begin(), shuffled.faces.end());

@@ -72,10 +72,17 @@ const mp_limb_t* numbers_of(const mp_limb_t* record) {
   return record + (has_long_header(record) ? 4 : 1);
 }
 
-Shape shape_of(const mp_limb_t* record, unsigned axis) {
-  if (has_long_header(record)) return unpacked(record[axis + 1], long_size_bits, long_size_bits);
-  return unpacked(*record >> (axis * short_shape_bits), short_numerator_bits,
+Shape short_shape(mp_limb_t header, unsigned axis) {
+  return unpacked(header >> (axis * short_shape_bits), short_numerator_bits,
                   short_denominator_bits);
+}
+
+Shape long_shape(const mp_limb_t* record, unsigned axis) {
+  return unpacked(record[axis + 1], long_size_bits, long_size_bits);
+}
+
+Shape shape_of(const mp_limb_t* record, unsigned axis) {
+  return has_long_header(record) ? long_shape(record, axis) : short_shape(*record, axis);
 }
 
 Shapes shapes_of(const mp_limb_t* record) {
@@ -109,8 +116,7 @@ mp_limb_t* ExactPoints::allocate(std::size_t limbs) {
 PointView ExactPoints::view(std::size_t i) const {
   const mp_limb_t* const record = records_[i];
   const mp_limb_t* limbs = numbers_of(record);
-  const auto next = [&](unsigned axis) {
-    const Shape shape = shape_of(record, axis);
+  const auto next = [&](const Shape& shape) {
     const mp_limb_t* const numerator = limbs;
     const mp_limb_t* const denominator = numerator + shape.numerator;
     limbs = denominator + (shape.binary_denominator ? 0 : shape.denominator);
@@ -120,7 +126,11 @@ PointView ExactPoints::view(std::size_t i) const {
                         shape.negative};
   };
   // Initialised in this order.
-  return {next(0), next(1), next(2)};
+  if (has_long_header(record)) {
+    return {next(long_shape(record, 0)), next(long_shape(record, 1)), next(long_shape(record, 2))};
+  }
+  const mp_limb_t header = *record;
+  return {next(short_shape(header, 0)), next(short_shape(header, 1)), next(short_shape(header, 2))};
 }
 
 void ExactPoints::push_back(const PointView& view) {

@@ -67,6 +67,15 @@ void assign_cross_product(Integer& result, const RationalView& a, const Rational
                        static_cast<mp_size_t>(b.denominator.size())));
 }
 
+// A loop: there are few limbs.
+bool equal_limbs(LimbSpan a, LimbSpan b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] != b[i]) return false;
+  }
+  return true;
+}
+
 std::strong_ordering compare_magnitudes(LimbSpan a, LimbSpan b) {
   if (a.size() != b.size()) return a.size() <=> b.size();
   return mpn_cmp(a.data(), b.data(), static_cast<mp_size_t>(a.size())) <=> 0;
@@ -139,12 +148,12 @@ void set_denominator(Integer& result, const RationalView& value) {
 
 // Different numbers mostly differ in the numerator's lowest limb already.
 bool equal(const RationalView& a, const RationalView& b) {
-  return a.negative == b.negative && std::ranges::equal(a.numerator, b.numerator) &&
+  return a.negative == b.negative && equal_limbs(a.numerator, b.numerator) &&
          equal_denominators(a, b);
 }
 
 bool equal_denominators(const RationalView& a, const RationalView& b) {
-  return a.exponent == b.exponent && std::ranges::equal(a.denominator, b.denominator);
+  return a.exponent == b.exponent && equal_limbs(a.denominator, b.denominator);
 }
 
 std::strong_ordering compare(const RationalView& a, const RationalView& b) {

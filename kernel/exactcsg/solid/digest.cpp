@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <compare>
 #include <cstring>
 #include <numeric>
 #include <string>
@@ -95,18 +96,24 @@ class HashedText {
     used_ += text.size();
     return *this;
   }
-  void add_point(const PointView& point) {
+  // The first coordinates, `common` of them, are those of the point before, whose text is copied.
+  void add_point(const PointView& point, std::size_t common) {
     // A digit more than limbs need, a sign or a separator each.
     std::size_t longest = 0;
     for (const RationalView& number : point) {
       longest += digits_of_limb * (number.numerator.size() + number.denominator.size() + 1) +
                  number.exponent / 4 + 4;
     }
+    if (!has_room(longest)) common = 0;  // it is not there any more
     reserve(longest);
-    char* to = end();
-    for (std::size_t i = 0; i < 3; ++i) {
+    char* const begin = end();
+    char* to = begin;
+    if (common > 0) to = std::copy_n(last_point_, ends_[common - 1], to);
+    last_point_ = begin;
+    for (std::size_t i = common; i < 3; ++i) {
       to = write(to, point[i]);
       *to++ = i == 2 ? '\n' : ' ';
+      ends_[i] = to - begin;
     }
     used_ = static_cast<std::size_t>(to - buffer_.data());
   }
@@ -164,8 +171,9 @@ class HashedText {
   }
 
   char* end() { return buffer_.data() + used_; }
+  bool has_room(std::size_t size) const { return buffer_.size() - used_ >= size; }
   void reserve(std::size_t size) {
-    if (buffer_.size() - used_ >= size) return;
+    if (has_room(size)) return;
     flush();
     if (buffer_.size() < size) buffer_.resize(size);
   }
@@ -177,14 +185,54 @@ class HashedText {
   Sha256 hash_;
   std::vector<char> buffer_ = std::vector<char>(std::size_t{1} << 16U);
   std::size_t used_ = 0;
+  const char* last_point_ = nullptr;
+  std::array<std::ptrdiff_t, 3> ends_{};  // of its coordinates, counted from its begin
 };
 
-bool ascend(const ExactPoints& points) {
-  if (points.empty()) return true;
-  PointView last = points.view(0);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const PointView next = points.view(i);
-    if (compare(next, last) < 0) return false;
+// How a vertex follows another one.
+struct Step {
+  std::strong_ordering order = std::strong_ordering::equal;  // of the first to the second
+  std::size_t common = 3;                                    // first coordinates that are equal
+};
+
+Step step_between(const PointView& first, const PointView& second) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::strong_ordering order = compare(first[axis], second[axis]);
+    if (order != 0) return {order, axis};
+  }
+  return {};
+}
+
+// Rounding to nearest is monotone: only equal doubles leave the order open.
+Step step_between(const PointView& first, const PointView& second,
+                  const std::array<double, 3>& near_first,
+                  const std::array<double, 3>& near_second) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (near_first[axis] != near_second[axis]) {
+      return {near_first[axis] < near_second[axis] ? std::strong_ordering::less
+                                                   : std::strong_ordering::greater,
+              axis};
+    }
+    if (equal(first[axis], second[axis])) continue;
+    return {compare(first[axis], second[axis]), axis};
+  }
+  return {};
+}
+
+// Adds the vertices as they are. Whether they ascend; else what is added is of no use.
+bool add_ascending(HashedText& text, const Boundary& boundary) {
+  const bool has_doubles = boundary.approximate.size() == boundary.vertices.size();
+  PointView last;
+  for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
+    const PointView next = boundary.vertices.view(i);
+    Step step{std::strong_ordering::less, 0};
+    if (i > 0) {
+      step = has_doubles
+                 ? step_between(last, next, boundary.approximate[i - 1], boundary.approximate[i])
+                 : step_between(last, next);
+    }
+    if (step.order > 0) return false;
+    text.add_point(next, step.common);
     last = next;
   }
   return true;
@@ -194,11 +242,9 @@ bool ascend(const ExactPoints& points) {
 std::vector<std::uint32_t> sorted_vertices(const Boundary& boundary) {
   std::vector<std::uint32_t> order(boundary.vertices.size());
   std::iota(order.begin(), order.end(), 0U);
-  if (!ascend(boundary.vertices)) {
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-      return compare(boundary.vertices.view(i), boundary.vertices.view(j)) < 0;
-    });
-  }
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return compare(boundary.vertices.view(i), boundary.vertices.view(j)) < 0;
+  });
   return order;
 }
 
@@ -215,13 +261,23 @@ std::string digest(const Boundary& boundary) {
   const auto section = [&text](std::string_view name, std::size_t count) {
     text << name << " " << std::to_string(count) << "\n";
   };
-  text << "exactcsg.boundary/3\n";
-  section("vertices", boundary.vertices.size());
-  const std::vector<std::uint32_t> order = sorted_vertices(boundary);
-  for (const std::uint32_t v : order) text.add_point(boundary.vertices.view(v));
+  const auto begin_vertices = [&] {
+    text << "exactcsg.boundary/3\n";
+    section("vertices", boundary.vertices.size());
+  };
+  std::vector<std::uint32_t> rank(boundary.vertices.size());
+  begin_vertices();
+  if (add_ascending(text, boundary)) {
+    std::iota(rank.begin(), rank.end(), 0U);
+  } else {
+    text = HashedText();
+    begin_vertices();
+    const std::vector<std::uint32_t> order = sorted_vertices(boundary);
+    for (const std::uint32_t v : order) text.add_point(boundary.vertices.view(v), 0);
+    rank = inverse_of(order);
+  }
 
-  const NumberTexts numbers(order.size());
-  const std::vector<std::uint32_t> rank = inverse_of(order);
+  const NumberTexts numbers(rank.size());
   std::vector<BoundaryEdge> edges;
   edges.reserve(boundary.edges.size());
   for (const BoundaryEdge& e : boundary.edges) {
@@ -231,15 +287,14 @@ std::string digest(const Boundary& boundary) {
   section("edges", edges.size());
   for (const BoundaryEdge& e : edges) text.add_line<2>({&numbers[e.from], &numbers[e.to]});
 
-  const std::vector<NumberedSide> sides = numbered_sides(boundary, rank);
-  section("planes", sides.empty() ? 0 : std::size_t{sides.back()[0]} + 1);
-  section("sides", sides.size());
-  NumberTexts::Text plane_text = NumberTexts::text_of(0);
-  std::uint32_t last_plane = 0;
-  for (const auto& [plane, from, to] : sides) {
-    if (plane != last_plane) plane_text = NumberTexts::text_of(plane);
-    last_plane = plane;
-    text.add_line<3>({&plane_text, &numbers[from], &numbers[to]});
+  const NumberedSides sides = numbered_sides(boundary, rank);
+  section("planes", sides.planes().size());
+  section("sides", sides.count());
+  for (std::size_t plane = 0; plane < sides.planes().size(); ++plane) {
+    const NumberTexts::Text plane_text = NumberTexts::text_of(plane);
+    for (const Side side : sides.planes()[plane]) {
+      text.add_line<3>({&plane_text, &numbers[side.from()], &numbers[side.to()]});
+    }
   }
   return text.digest();
 }

@@ -3,19 +3,13 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "exactcsg/solid/bucket_sort.hpp"
 
 namespace exactcsg {
 
 namespace {
-
-// (from, to) in 64 bits, which are compared as the pair is.
-using Side = std::uint64_t;
-
-Side side_between(std::uint32_t from, std::uint32_t to) { return Side{from} << 32U | to; }
-
-using SidesOfPlane = std::span<const Side>;
 
 // The sorted sides of each plane, by the boundary's own numbers of planes.
 class SidesByPlane {
@@ -38,10 +32,10 @@ class SidesByPlane {
     }
   }
 
-  std::size_t count() const { return sides_.size(); }
   SidesOfPlane of(std::uint32_t plane) const {
     return SidesOfPlane(sides_).subspan(begin_of(plane), end_[plane] - begin_of(plane));
   }
+  std::vector<Side> release() && { return std::move(sides_); }
 
  private:
   std::size_t begin_of(std::uint32_t plane) const { return plane == 0 ? 0 : end_[plane - 1]; }
@@ -54,8 +48,7 @@ class SidesByPlane {
     std::uint32_t from = rename[loop.back()];
     for (const std::uint32_t vertex : loop) {
       const std::uint32_t to = rename[vertex];
-      sides_[place++] =
-          direction == SideDirection::Kept ? side_between(from, to) : side_between(to, from);
+      sides_[place++] = direction == SideDirection::Kept ? Side(from, to) : Side(to, from);
       from = to;
     }
   }
@@ -66,10 +59,15 @@ class SidesByPlane {
 
 }  // namespace
 
-std::vector<NumberedSide> numbered_sides(const Boundary& boundary,
-                                         std::span<const std::uint32_t> rename,
-                                         SideDirection direction) {
-  const SidesByPlane sides(boundary, rename, direction);
+bool operator==(const NumberedSides& a, const NumberedSides& b) {
+  return std::ranges::equal(a.planes_, b.planes_, [](SidesOfPlane p, SidesOfPlane q) {
+    return std::ranges::equal(p, q);
+  });
+}
+
+NumberedSides numbered_sides(const Boundary& boundary, std::span<const std::uint32_t> rename,
+                             SideDirection direction) {
+  SidesByPlane sides(boundary, rename, direction);
   std::vector<SidesOfPlane> planes;
   planes.reserve(boundary.plane_count);
   for (std::uint32_t plane = 0; plane < boundary.plane_count; ++plane) {
@@ -84,18 +82,10 @@ std::vector<NumberedSide> numbered_sides(const Boundary& boundary,
   // As they are where the vertices keep their numbers, nearly always.
   if (!std::is_sorted(planes.begin(), planes.end(), earlier)) {
     sort_in_buckets(
-        planes, rename.size(),
-        [](SidesOfPlane plane) { return static_cast<std::size_t>(plane.front() >> 32U); }, earlier);
+        planes, rename.size(), [](SidesOfPlane plane) { return std::size_t{plane.front().from()}; },
+        earlier);
   }
-  std::vector<NumberedSide> result;
-  result.reserve(sides.count());
-  for (std::uint32_t p = 0; p < planes.size(); ++p) {
-    for (const Side side : planes[p]) {
-      result.push_back(
-          {p, static_cast<std::uint32_t>(side >> 32U), static_cast<std::uint32_t>(side)});
-    }
-  }
-  return result;
+  return {std::move(sides).release(), std::move(planes)};
 }
 
 }  // namespace exactcsg

@@ -63,6 +63,15 @@ void set(Limbs result, LimbSpan value) {
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = i < value.size() ? value[i] : 0;
 }
 
+void subtract(Limbs from, const mp_limb_t* value) {
+  mp_limb_t borrow = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const UnsignedInt128 difference = UnsignedInt128{from[i]} - value[i] - borrow;
+    from[i] = static_cast<mp_limb_t>(difference);
+    borrow = static_cast<mp_limb_t>(difference >> 127U);
+  }
+}
+
 void negate(Limbs value) {
   mpn_neg(value.data(), value.data(), static_cast<mp_size_t>(value.size()));
 }
@@ -102,22 +111,24 @@ class ShortDivisor {
   // Sets the quotient of that dividend, as many limbs. Whether nothing remains.
   bool divide(mp_limb_t* quotient, LimbSpan dividend) const {
     mp_limb_t rest = 0;
-    for (std::size_t i = dividend.size(); i > 0; --i) {
-      const UnsignedInt128 estimate =
-          UnsignedInt128{reciprocal_} * rest + (UnsignedInt128{rest} << 64U | dividend[i - 1]);
-      mp_limb_t digit = static_cast<mp_limb_t>(estimate >> 64U) + 1;
-      rest = dividend[i - 1] - digit * normalized_;
-      if (rest > static_cast<mp_limb_t>(estimate)) {
-        --digit;
-        rest += normalized_;
-      }
-      if (rest >= normalized_) {
-        ++digit;
-        rest -= normalized_;
-      }
-      quotient[i - 1] = digit;
-    }
+    for (std::size_t i = dividend.size(); i > 0; --i) quotient[i - 1] = step(rest, dividend[i - 1]);
     return rest == 0;
+  }
+  // The next limb of a quotient; `rest` is below the divisor times 2^shift, before and after.
+  mp_limb_t step(mp_limb_t& rest, mp_limb_t dividend) const {
+    const UnsignedInt128 estimate =
+        UnsignedInt128{reciprocal_} * rest + (UnsignedInt128{rest} << 64U | dividend);
+    mp_limb_t digit = static_cast<mp_limb_t>(estimate >> 64U) + 1;
+    rest = dividend - digit * normalized_;
+    if (rest > static_cast<mp_limb_t>(estimate)) {
+      --digit;
+      rest += normalized_;
+    }
+    if (rest >= normalized_) {
+      ++digit;
+      rest -= normalized_;
+    }
+    return digit;
   }
 
  private:
@@ -133,6 +144,17 @@ class GridScaling {
   explicit GridScaling(long shift) : shift_(shift) {}
 
   void operator()(Limbs result, const RationalView& value) {
+    if (result.size() == 2 && !value.is_zero()) {
+      if (const auto quotient = short_quotient(value)) {
+        const UnsignedInt128 magnitude = UnsignedInt128{quotient->high} << 64U | quotient->low;
+        // -(q + rest) is between -q - 1 and -q.
+        const UnsignedInt128 scaled =
+            value.negative ? -magnitude - (quotient->whole ? 0 : 1) : magnitude;
+        result[0] = static_cast<mp_limb_t>(scaled);
+        result[1] = static_cast<mp_limb_t>(scaled >> 64U);
+        return;
+      }
+    }
     const bool whole = set_magnitude(result, value);
     if (!value.negative) return;
     negate(result);
@@ -146,6 +168,45 @@ class GridScaling {
     LimbSpan limbs;
     bool whole = true;
   };
+
+  // The lowest two limbs of a quotient.
+  struct ShortQuotient {
+    mp_limb_t low = 0;
+    mp_limb_t high = 0;
+    bool whole = true;
+  };
+
+  // Of the numbers that most vertices have: at most two limbs above one limb times a power of two,
+  // shifted upwards by less than two limbs.
+  std::optional<ShortQuotient> short_quotient(const RationalView& value) {
+    const LimbSpan divisor = value.denominator;
+    if (value.numerator.size() > 2 || divisor.empty()) return std::nullopt;
+    const long zeros = count_low_zeros(divisor);
+    const auto whole = static_cast<std::size_t>(zeros) / GMP_NUMB_BITS;
+    if (divisor.size() > whole + 2) return std::nullopt;
+    const mp_limb_t above = whole + 1 < divisor.size() ? divisor[whole + 1] : 0;
+    const UnsignedInt128 odd = (UnsignedInt128{above} << 64U | divisor[whole]) >>
+                               static_cast<unsigned>(zeros % GMP_NUMB_BITS);
+    if (odd >> 64U != 0) return std::nullopt;
+    const ShortDivisor& by = short_divisor(static_cast<mp_limb_t>(odd));
+    const long shift = shift_ - zeros + by.shift();
+    if (shift < 0 || shift >= 2 * GMP_NUMB_BITS) return std::nullopt;
+    const mp_limb_t high = value.numerator.size() == 2 ? value.numerator[1] : 0;
+    const auto bits = static_cast<unsigned>(shift) % GMP_NUMB_BITS;
+    const UnsignedInt128 low = (UnsignedInt128{high} << 64U | value.numerator[0]) << bits;
+    const mp_limb_t top = high >> 1U >> (63 - bits);
+    mp_limb_t rest = 0;
+    if (top != 0) by.step(rest, top);
+    ShortQuotient quotient;
+    quotient.high = by.step(rest, static_cast<mp_limb_t>(low >> 64U));
+    quotient.low = by.step(rest, static_cast<mp_limb_t>(low));
+    if (shift >= GMP_NUMB_BITS) {
+      quotient.high = quotient.low;
+      quotient.low = by.step(rest, 0);
+    }
+    quotient.whole = rest == 0;
+    return quotient;
+  }
 
   // Whether nothing was cut off.
   bool set_magnitude(Limbs result, const RationalView& value) {
@@ -301,12 +362,19 @@ void fill(ScaledVertices& s, const Boundary& boundary, const CoordinateRanges& r
   std::vector<mp_limb_t> origin(3 * s.width);
   for (std::size_t i = 0; i < 3; ++i) set(Limbs(origin).subspan(i * s.width, s.width), lowest[i]);
   mp_limb_t* to = s.limbs.data();
+  PointView last;
   for (std::size_t v = 0; v < boundary.vertices.size(); ++v) {
     const PointView vertex = boundary.vertices.view(v);
     for (std::size_t i = 0; i < 3; ++i, to += s.width) {
+      // Neighbours in lexicographic order often have coordinates in common.
+      if (v > 0 && equal(vertex[i], last[i])) {
+        std::copy_n(to - 3 * s.width, s.width, to);
+        continue;
+      }
       set_scaled(Limbs(to, s.width), vertex[i]);
-      mpn_sub_n(to, to, origin.data() + i * s.width, static_cast<mp_size_t>(s.width));
+      subtract(Limbs(to, s.width), origin.data() + i * s.width);
     }
+    last = vertex;
   }
 }
 

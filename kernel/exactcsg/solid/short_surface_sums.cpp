@@ -195,32 +195,67 @@ class ShortSummation {
   Area area_of_loop(const std::vector<std::uint32_t>& loop) {
     if (loop.size() < 3) return {};
     const Coordinates first = coordinates(loop.front());
-    Coordinates last = coordinates(loop[1]);
-    Coordinates u = difference(last, first);
     std::array<DigitColumns<2 * D + 1>, 3> sums;
-    for (std::size_t k = 2; k < loop.size(); ++k) {
-      const Coordinates next = coordinates(loop[k]);
-      const Coordinates v = difference(next, first);
-      std::array<Digits<2 * D>, 3> cross;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const DigitColumns<2 * D - 1> component =
-            difference_of_products(u[(i + 1) % 3], v[(i + 2) % 3], u[(i + 2) % 3], v[(i + 1) % 3]);
-        add(sums[i], component);
-        if (wanted == Wanted::Everything) cross[i] = digits_of<2 * D>(component);
-      }
-      if (wanted == Wanted::Everything) add_cone(cross, first, last, next);
-      // Columns of the area grow by less than 2^122 each time, those of the moments by 2^123.
-      if ((++pending_ & 7U) == 0) {
-        for (std::size_t i = 0; i < 3; ++i) carry(sums[i]);
-        for (DigitColumns<4 * D>& moment : moments_) carry(moment);
-      }
-      last = next;
-      u = v;
+    if constexpr (wanted == Wanted::Everything) {
+      add_triangles(loop, first, sums);
+    } else {
+      add_quadrilaterals(loop, first, sums);
     }
     Area area;
     for (std::size_t i = 0; i < 3; ++i) area[i] = digits_of<2 * D + 1>(sums[i]);
     if (wanted == Wanted::VolumeAndArea) add(six_volumes_, digits_of<3 * D + 1>(dot(first, area)));
     return area;
+  }
+
+  using AreaSums = std::array<DigitColumns<2 * D + 1>, 3>;
+
+  // Columns of the area grow by less than 2^122 with each product, those of the moments by 2^123.
+  void carry_in_time(AreaSums& sums) {
+    if ((++pending_ & 7U) != 0) return;
+    for (DigitColumns<2 * D + 1>& sum : sums) carry(sum);
+    for (DigitColumns<4 * D>& moment : moments_) carry(moment);
+  }
+
+  static DigitColumns<2 * D - 1> cross_component(const Coordinates& u, const Coordinates& v,
+                                                 std::size_t i) {
+    return difference_of_products(u[(i + 1) % 3], v[(i + 2) % 3], u[(i + 2) % 3], v[(i + 1) % 3]);
+  }
+
+  void add_triangles(const std::vector<std::uint32_t>& loop, const Coordinates& first,
+                     AreaSums& sums) {
+    Coordinates last = coordinates(loop[1]);
+    Coordinates u = difference(last, first);
+    for (std::size_t k = 2; k < loop.size(); ++k) {
+      const Coordinates next = coordinates(loop[k]);
+      const Coordinates v = difference(next, first);
+      std::array<Digits<2 * D>, 3> cross;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const DigitColumns<2 * D - 1> component = cross_component(u, v, i);
+        add(sums[i], component);
+        cross[i] = digits_of<2 * D>(component);
+      }
+      add_cone(cross, first, last, next);
+      carry_in_time(sums);
+      last = next;
+      u = v;
+    }
+  }
+
+  // The triangles f, p, q and f, q, r have together (p - f) x (q - f) + (q - f) x (r - f)
+  // = (q - f) x (r - p): one product for two of them.
+  void add_quadrilaterals(const std::vector<std::uint32_t>& loop, const Coordinates& first,
+                          AreaSums& sums) {
+    Coordinates p = coordinates(loop[1]);
+    for (std::size_t k = 2; k < loop.size(); k += 2) {
+      const Coordinates q = coordinates(loop[k]);
+      // After the last triangle comes one without area: r = f.
+      const Coordinates r = k + 1 < loop.size() ? coordinates(loop[k + 1]) : first;
+      const Coordinates u = difference(q, first);
+      const Coordinates v = difference(r, p);
+      for (std::size_t i = 0; i < 3; ++i) add(sums[i], cross_component(u, v, i));
+      carry_in_time(sums);
+      p = r;
+    }
   }
 
   // The tetrahedron origin, p, q, r has six times the volume det and the moment det / 24 (p + q +
