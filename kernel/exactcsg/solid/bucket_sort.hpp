@@ -43,7 +43,8 @@ void sort_in_groups(unsigned threads, std::vector<Item>& items, std::size_t buck
     for (auto& places : place) sum += std::exchange(places[group], sum);
   }
   group_begins.push_back(sum);
-  std::vector<Item> grouped(items.size());
+  std::vector<Item> grouped;
+  resize(threads, grouped, items.size());
   in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     auto& places = place[part];
     for (std::size_t i = begin; i < end; ++i) {

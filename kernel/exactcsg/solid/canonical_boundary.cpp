@@ -101,9 +101,6 @@ struct SettledSide {
   bool settled;
 };
 
-// For bytes that several threads may set at once.
-void set_mark(unsigned char& mark) { std::atomic_ref(mark).store(1, std::memory_order_relaxed); }
-
 class Merger {
  public:
   // Buffers are given up as soon as they are read.
@@ -112,7 +109,7 @@ class Merger {
         geometry_(scene.geometry),
         threads_(threads),
         progress_(progress),
-        settled_(settled_facets(scene, buffers)),
+        settled_(settled_facets(scene, buffers, threads)),
         faces_(PieceRow(buffers).size()) {
     number_vertices(std::move(buffers));
   }
@@ -129,7 +126,7 @@ class Merger {
  private:
   // Sets lines_, content_, segments_, simple_edges_ and is_vertex_ of their ends.
   void sum_edges() {
-    is_vertex_.assign(vertices_.size(), 0);
+    resize(threads_, is_vertex_, vertices_.size());
     mark_settled_ends();
     const std::vector<PieceEdge> edges = edges_to_sum();
     check();
@@ -173,11 +170,11 @@ class Merger {
     for (PieceBuffer& buffer : buffers) give_up(buffer.meeting_points);
     const Parts parts(pieces.size());
     const std::vector<PieceCounts> firsts = first_entries(pieces, parts);
-    edges_.resize(firsts.back().edges);
-    settled_faces_.resize(firsts.back().settled_faces);
-    settled_sides_.resize(firsts.back().settled_sides);
-    primitive_of_piece_.resize(pieces.size());
-    in_general_position_.resize(pieces.size());
+    resize(threads_, edges_, firsts.back().edges);
+    resize(threads_, settled_faces_, firsts.back().settled_faces);
+    resize(threads_, settled_sides_, firsts.back().settled_sides);
+    resize(threads_, primitive_of_piece_, pieces.size());
+    resize(threads_, in_general_position_, pieces.size());
     std::vector<std::vector<SettledEdge>> settled_edges(parts.count());
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       check();
@@ -268,9 +265,9 @@ class Merger {
   // cell shares with others only what its walls make.
   CornerVertices vertices_of(const PieceRow& pieces) const {
     CornerVertices result;
-    result.point_occurs.assign(geometry_.point_count(), CornerOccurrence::None);
-    result.meeting_points.assign(pieces.meeting_point_count(), nullptr);
-    result.meeting_point_occurs.assign(pieces.meeting_point_count(), CornerOccurrence::None);
+    resize(threads_, result.point_occurs, geometry_.point_count());
+    resize(threads_, result.meeting_points, pieces.meeting_point_count());
+    resize(threads_, result.meeting_point_occurs, pieces.meeting_point_count());
     const auto add = [&](const PieceBuffer& buffer, std::size_t first_meeting_point,
                          const BoundaryPiece& piece, PieceNumber) {
       const CornerOccurrence occurrence =
@@ -376,7 +373,8 @@ class Merger {
 
   // Edges with the same two ends are neighbours, and of these, edges of one oriented plane.
   std::vector<EdgeOfEnds> edges_by_ends() const {
-    std::vector<EdgeOfEnds> order(edges_.size());
+    std::vector<EdgeOfEnds> order;
+    resize(threads_, order, edges_.size());
     in_parallel_parts(threads_, edges_.size(), [&](std::size_t i) {
       const auto [low, high] = std::minmax(edges_[i].from, edges_[i].to);
       order[i] = {(static_cast<std::uint64_t>(low) << 32U) | high, static_cast<std::uint32_t>(i)};

@@ -8,6 +8,7 @@
 
 #include "exactcsg/csg/membership.hpp"
 #include "exactcsg/solid/classify.hpp"
+#include "exactcsg/solid/in_parallel.hpp"
 
 namespace exactcsg {
 
@@ -111,7 +112,7 @@ bool CellSolver::touches_walls(const CellTask& task) const {
 
 // A bounded solid has no boundary at the root cell's walls, and its complement has the space there.
 void require_bounded(const Solid& solid, const Scene& scene,
-                     const std::vector<PieceBuffer>& buffers) {
+                     const std::vector<PieceBuffer>& buffers, unsigned threads) {
   const auto is_root_wall = [&](PlaneRef plane) {
     if (!plane.is_wall()) return false;
     const auto axis = static_cast<std::size_t>(plane.wall_axis());
@@ -125,16 +126,17 @@ void require_bounded(const Solid& solid, const Scene& scene,
   const auto is_whole_half_space = [&](const BoundaryPiece& piece) {
     return piece.share == facet_share::whole && scene.facets[piece.facet].is_half_space;
   };
-  bool bounded = true;
-  for (const PieceBuffer& buffer : buffers) {
-    bounded =
-        bounded &&
-        std::none_of(buffer.meeting_points.begin(), buffer.meeting_points.end(), reaches_wall) &&
-        std::none_of(buffer.pieces.begin(), buffer.pieces.end(), is_whole_half_space);
-  }
+  unsigned char unbounded = 0;
+  in_parallel_parts(threads, buffers.size(), [&](std::size_t b) {
+    const PieceBuffer& buffer = buffers[b];
+    if (std::ranges::any_of(buffer.meeting_points, reaches_wall) ||
+        std::ranges::any_of(buffer.pieces, is_whole_half_space)) {
+      set_mark(unbounded);
+    }
+  });
   const Point3 corner{rational_of(scene.root.lower[0]), rational_of(scene.root.lower[1]),
                       rational_of(scene.root.lower[2])};
-  if (!bounded || classify(solid, corner) != PointClass::Out) {
+  if (unbounded != 0 || classify(solid, corner) != PointClass::Out) {
     throw Error(ErrorId::UnboundedSolid, {"a solid without bounds", "a bounded solid"});
   }
 }

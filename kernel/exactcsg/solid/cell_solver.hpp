@@ -55,6 +55,6 @@ class CellSolver {
 // THROWS Error(UnboundedSolid) unless these pieces, in the cells of this scene, are the boundary of
 // a bounded solid.
 void require_bounded(const Solid& solid, const Scene& scene,
-                     const std::vector<PieceBuffer>& buffers);
+                     const std::vector<PieceBuffer>& buffers, unsigned threads);
 
 }  // namespace exactcsg

@@ -82,7 +82,7 @@ Boundary evaluate(const Solid& solid, const EvaluateOptions& options) {
   Scene scene = make_scene(solid, options.threads);
   if (options.progress != nullptr) options.progress->begin("decompose", scene.facets.size());
   CellResult result = run(scene, options);
-  require_bounded(solid, scene, result.buffers);
+  require_bounded(solid, scene, result.buffers, options.threads);
   restore_whole_facets(scene, result.buffers, options.threads);
   if (options.progress != nullptr) options.progress->begin("merge", 0);
   scene.bounds = {};

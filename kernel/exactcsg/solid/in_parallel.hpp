@@ -119,6 +119,29 @@ void in_parallel_parts(unsigned threads, std::size_t count, const Round& round) 
   });
 }
 
+// For bytes that several threads may set at once.
+inline void set_mark(unsigned char& mark) {
+  std::atomic_ref(mark).store(1, std::memory_order_relaxed);
+}
+
+// Makes a vector longer. The new memory is touched by all threads before the new items are made by
+// this one: the first touch of a page costs several times as much as filling it.
+template <class Item>
+void resize(unsigned threads, std::vector<Item>& items, std::size_t size) {
+  constexpr std::size_t page = 4096;
+  constexpr std::size_t pages_at_once = 64;
+  const std::size_t old_size = items.size();
+  items.reserve(size);
+  const std::size_t bytes = size > old_size ? (size - old_size) * sizeof(Item) : 0;
+  if (threads != 1 && bytes > page * pages_at_once) {
+    auto* const memory = static_cast<unsigned char*>(static_cast<void*>(items.data() + old_size));
+    in_parallel(threads, bytes / (page * pages_at_once), [&](std::size_t i) {
+      for (std::size_t k = 0; k < pages_at_once; ++k) memory[(i * pages_at_once + k) * page] = 0;
+    });
+  }
+  items.resize(size);
+}
+
 // Where each of several lists begins when they are joined, and the length of all.
 template <class Lists>
 std::vector<std::size_t> first_places(const Lists& lists) {
@@ -132,7 +155,8 @@ template <class Item>
 std::vector<Item> joined(unsigned threads, std::vector<std::vector<Item>> lists) {
   if (lists.size() == 1) return std::move(lists.front());
   const std::vector<std::size_t> places = first_places(lists);
-  std::vector<Item> result(places.back());
+  std::vector<Item> result;
+  resize(threads, result, places.back());
   in_parallel(threads, lists.size(), [&](std::size_t i) {
     std::move(lists[i].begin(), lists[i].end(),
               result.begin() + static_cast<std::ptrdiff_t>(places[i]));

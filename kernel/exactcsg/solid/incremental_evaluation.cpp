@@ -308,8 +308,10 @@ Boundary IncrementalEvaluation::State::boundary() {
   const WorkingScene& working = scene_.now();
   std::vector<PieceBuffer> buffers = gathered_pieces();
   // Sets made of bounded ones are bounded.
-  if (contains_full_ || working.has_half_spaces) require_bounded(solid(), working.scene, buffers);
-  restore_whole_facets(working.scene, buffers);
+  if (contains_full_ || working.has_half_spaces) {
+    require_bounded(solid(), working.scene, buffers, options_.threads);
+  }
+  restore_whole_facets(working.scene, buffers, options_.threads);
   begin_progress("merge", 0);
   Boundary boundary =
       merge_pieces(working.scene, std::move(buffers), options_.threads, options_.progress);

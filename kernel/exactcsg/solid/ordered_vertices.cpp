@@ -96,7 +96,7 @@ struct Positions {
 Positions positions_of(const Geometry& geometry, std::span<const Vertex> vertices,
                        std::span<const Approximated> wanted, unsigned threads) {
   Positions positions;
-  positions.nearest.resize(wanted.size());
+  resize(threads, positions.nearest, wanted.size());
   const Parts parts(wanted.size());
   std::vector<ExactPoints> exact(parts.count());
   in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
@@ -122,12 +122,14 @@ OrderedVertices ordered_vertices(const Geometry& geometry, std::span<const Verte
   std::iota(order.begin(), order.end(), 0U);
   LexicographicOrder(positions.nearest, positions.exact).sort(order, threads);
   OrderedVertices result;
-  result.number.assign(vertices.size(), OrderedVertices::none);
-  result.nearest.reserve(order.size());
-  for (const std::uint32_t i : order) {
-    result.number[wanted[i].vertex] = static_cast<std::uint32_t>(result.nearest.size());
-    result.nearest.push_back(positions.nearest[i]);
-  }
+  resize(threads, result.number, vertices.size());
+  in_parallel_parts(threads, vertices.size(),
+                    [&](std::size_t v) { result.number[v] = OrderedVertices::none; });
+  resize(threads, result.nearest, order.size());
+  in_parallel_parts(threads, order.size(), [&](std::size_t place) {
+    result.number[wanted[order[place]].vertex] = static_cast<std::uint32_t>(place);
+    result.nearest[place] = positions.nearest[order[place]];
+  });
   positions.exact.reorder(order);
   result.exact = std::move(positions.exact);
   return result;

@@ -442,9 +442,9 @@ class SceneBuilder {
     Scene scene{
         std::move(builder_).build(), std::move(primitives_), {}, {}, {}, {}, std::move(tree_), {}};
     scene.root = root_cell();
-    scene.corners.resize(corner_count_);
-    scene.facets.resize(facet_count_);
-    for (std::size_t axis = 0; axis < 3; ++axis) scene.bounds.facets[axis].resize(facet_count_);
+    resize(threads, scene.corners, corner_count_);
+    resize(threads, scene.facets, facet_count_);
+    for (std::vector<Range>& bounds : scene.bounds.facets) resize(threads, bounds, facet_count_);
     in_parallel(threads, Parts(facet_count_), [&](std::size_t, std::size_t begin, std::size_t end) {
       fill_facets(scene, static_cast<FacetIndex>(begin), static_cast<FacetIndex>(end));
     });
@@ -549,9 +549,15 @@ class SceneBuilder {
     return nullptr;
   }
 
+  // Some of the shapes, and what is known of each.
+  struct Batch {
+    std::span<Shape> shapes;
+    std::vector<PreparedPolyhedron> known;
+  };
+
   // Numbers points and planes in the order of the primitives. What can be found out of a primitive
-  // by itself is found by several threads, of a few primitives at a time; of a few in all, they
-  // share each.
+  // by itself is found by several threads, of a few primitives at a time, while one of them numbers
+  // those before; of a few in all, they share each.
   void add_shapes(unsigned threads) {
     make_room();
     constexpr std::size_t few = 8;
@@ -559,24 +565,37 @@ class SceneBuilder {
     const unsigned inside = share_each ? threads : 1;
     if (share_each) threads = 1;
     const std::size_t at_a_time = threads == 1 ? 1 : 64;
+    Batch before;
     for (std::size_t first = 0; first < shapes_.size(); first += at_a_time) {
-      const auto shapes =
-          std::span(shapes_).subspan(first, std::min(at_a_time, shapes_.size() - first));
-      std::vector<PreparedPolyhedron> known(shapes.size());
-      in_parallel(threads, shapes.size(), [&](std::size_t i) {
-        if (shapes[i].polyhedron) set_points(*shapes[i].polyhedron, known[i], inside);
-      });
-      set_kinds(shapes, known, threads, inside);
-      in_parallel(threads, shapes.size(), [&](std::size_t i) {
-        if (!shapes[i].polyhedron || !known[i].planes.empty()) return;
-        set_planes(*shapes[i].polyhedron, *shapes[i].kind, known[i], inside);
-      });
-      for (std::size_t i = 0; i < shapes.size(); ++i) {
-        if (shapes[i].polyhedron) {
-          add_polyhedron(shapes[i], known[i]);
-        } else {
-          add_half_space(shapes[i]);
+      const std::size_t count = std::min(at_a_time, shapes_.size() - first);
+      Batch batch{std::span(shapes_).subspan(first, count), std::vector<PreparedPolyhedron>(count)};
+      in_parallel(threads, count, [&](std::size_t i) {
+        if (const Shape& shape = batch.shapes[i]; shape.polyhedron) {
+          set_points(*shape.polyhedron, batch.known[i], inside);
         }
+      });
+      set_kinds(batch.shapes, batch.known, threads, inside);
+      in_parallel(threads, count + 1, [&](std::size_t i) {
+        if (i == 0) {
+          add(before);
+          return;
+        }
+        const Shape& shape = batch.shapes[i - 1];
+        PreparedPolyhedron& known = batch.known[i - 1];
+        if (!shape.polyhedron || !known.planes.empty()) return;
+        set_planes(*shape.polyhedron, *shape.kind, known, inside);
+      });
+      before = std::move(batch);
+    }
+    add(before);
+  }
+
+  void add(Batch& batch) {
+    for (std::size_t i = 0; i < batch.shapes.size(); ++i) {
+      if (batch.shapes[i].polyhedron) {
+        add_polyhedron(batch.shapes[i], batch.known[i]);
+      } else {
+        add_half_space(batch.shapes[i]);
       }
     }
   }

@@ -2,7 +2,10 @@
 #include "exactcsg/solid/settled_facets.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <span>
+
+#include "exactcsg/solid/in_parallel.hpp"
 
 namespace exactcsg {
 
@@ -24,31 +27,38 @@ bool turns_at_every_corner(const Scene& scene, const SceneFacet& facet) {
 
 }  // namespace
 
-SettledFacets::SettledFacets(const Scene& scene, const std::vector<Emitted>& emitted)
-    : planes_(scene.geometry.plane_count(), Emitted::NotWhole) {
-  std::vector<std::uint32_t> facets_in_plane(planes_.size(), 0);
-  for (const SceneFacet& facet : scene.facets) ++facets_in_plane[facet.plane.plane.table_index()];
-  for (std::size_t f = 0; f < scene.facets.size(); ++f) {
+SettledFacets::SettledFacets(const Scene& scene, const std::vector<Emitted>& emitted,
+                             unsigned threads) {
+  std::vector<std::uint32_t> facets_in_plane;
+  resize(threads, facets_in_plane, scene.geometry.plane_count());
+  in_parallel_parts(threads, scene.facets.size(), [&](std::size_t f) {
+    std::atomic_ref(facets_in_plane[scene.facets[f].plane.plane.table_index()])
+        .fetch_add(1, std::memory_order_relaxed);
+  });
+  resize(threads, planes_, scene.geometry.plane_count());
+  in_parallel_parts(threads, scene.facets.size(), [&](std::size_t f) {
     const SceneFacet& facet = scene.facets[f];
     const std::uint32_t plane = facet.plane.plane.table_index();
     if (emitted[f] != Emitted::NotWhole && facets_in_plane[plane] == 1 &&
         turns_at_every_corner(scene, facet)) {
       planes_[plane] = emitted[f];
     }
-  }
+  });
 }
 
-SettledFacets settled_facets(const Scene& scene, const std::vector<PieceBuffer>& buffers) {
+SettledFacets settled_facets(const Scene& scene, const std::vector<PieceBuffer>& buffers,
+                             unsigned threads) {
   using Emitted = SettledFacets::Emitted;
-  std::vector<Emitted> emitted(scene.facets.size(), Emitted::NotWhole);
-  for (const PieceBuffer& buffer : buffers) {
-    for (const BoundaryPiece& piece : buffer.pieces) {
+  std::vector<Emitted> emitted;
+  resize(threads, emitted, scene.facets.size());
+  in_parallel_parts(threads, buffers.size(), [&](std::size_t b) {
+    for (const BoundaryPiece& piece : buffers[b].pieces) {
       if (piece.share != facet_share::whole) continue;
       emitted[piece.facet] =
           piece.in_general_position ? Emitted::InGeneralPosition : Emitted::Whole;
     }
-  }
-  return SettledFacets(scene, emitted);
+  });
+  return SettledFacets(scene, emitted, threads);
 }
 
 }  // namespace exactcsg

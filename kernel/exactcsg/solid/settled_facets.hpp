@@ -20,10 +20,10 @@ namespace exactcsg {
 
 class SettledFacets {
  public:
-  enum class Emitted : unsigned char { NotWhole, Whole, InGeneralPosition };
+  enum class Emitted : unsigned char { NotWhole = 0, Whole, InGeneralPosition };
 
   // emitted: by facet.
-  SettledFacets(const Scene& scene, const std::vector<Emitted>& emitted);
+  SettledFacets(const Scene& scene, const std::vector<Emitted>& emitted, unsigned threads);
 
   bool is_settled(const BoundaryPiece& piece) const { return is_settled(piece.plane.plane); }
   // Whether the plane is that of a settled facet.
@@ -41,6 +41,7 @@ class SettledFacets {
 
 // REQUIRES whole facets were restored: a piece is a whole facet of the scene iff its share says so.
 // COST: O(facets of the scene + pieces).
-SettledFacets settled_facets(const Scene& scene, const std::vector<PieceBuffer>& buffers);
+SettledFacets settled_facets(const Scene& scene, const std::vector<PieceBuffer>& buffers,
+                             unsigned threads);
 
 }  // namespace exactcsg

@@ -113,7 +113,7 @@ void append_alone(const Items& items, unsigned threads, const NumberOf& number_o
   });
   firsts[0] = distinct.size();
   std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
-  distinct.resize(firsts.back());
+  resize(threads, distinct, firsts.back());
   in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     auto next = static_cast<std::uint32_t>(firsts[part]);
     for (std::size_t i = begin; i < end; ++i) {

@@ -59,8 +59,8 @@ class Clusters {
 
 // What is known of a corner of pieces before anything is compared.
 enum class CornerOccurrence : unsigned char {
-  None,   // it is no corner of a piece
-  Alone,  // no other has its position
+  None = 0,  // it is no corner of a piece
+  Alone,     // no other has its position
   Some
 };
 

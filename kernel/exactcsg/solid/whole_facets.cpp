@@ -2,7 +2,8 @@
 #include "exactcsg/solid/whole_facets.hpp"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
+#include <limits>
 
 #include "exactcsg/solid/in_parallel.hpp"
 
@@ -10,43 +11,67 @@ namespace exactcsg {
 
 namespace {
 
-// The shares of a facet that became boundary with the stored normal outward, and with the other.
-using Shares = std::array<std::uint64_t, 2>;
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-std::uint64_t& share_of(std::vector<Shares>& shares, const BoundaryPiece& piece) {
-  return shares[piece.facet][piece.plane.sense > 0 ? 0 : 1];
+// What came out of a facet. Parts that are boundary of either sense never add up to a whole.
+struct FacetParts {
+  std::uint64_t share = 0;  // of all
+  std::uint32_t first_buffer = none;
+  unsigned char some_outward = 0;  // with the stored normal
+  unsigned char some_inward = 0;
+  unsigned char touched = 0;  // not in general position somewhere
+  unsigned char restored = 0;
+
+  bool is_whole() const {
+    return share == facet_share::whole && (some_outward == 0 || some_inward == 0);
+  }
+};
+
+void set_least(std::uint32_t& least, std::uint32_t value) {
+  const std::atomic_ref shared(least);
+  std::uint32_t known = shared.load(std::memory_order_relaxed);
+  while (value < known && !shared.compare_exchange_weak(known, value, std::memory_order_relaxed)) {
+  }
 }
 
-bool is_whole(std::vector<Shares>& shares, const BoundaryPiece& piece) {
-  return share_of(shares, piece) == facet_share::whole;
+// Sums do not depend on the order of the buffers.
+void add_parts(const PieceBuffer& buffer, std::uint32_t number, std::vector<FacetParts>& facets) {
+  for (const BoundaryPiece& piece : buffer.pieces) {
+    FacetParts& facet = facets[piece.facet];
+    std::atomic_ref(facet.share).fetch_add(piece.share, std::memory_order_relaxed);
+    set_least(facet.first_buffer, number);
+    set_mark(piece.plane.sense > 0 ? facet.some_outward : facet.some_inward);
+    if (!piece.in_general_position) set_mark(facet.touched);
+  }
+}
+
+// Of the parts of a whole facet the first one stays, for all of it.
+void restore(PieceBuffer& buffer, std::uint32_t number, std::vector<FacetParts>& facets) {
+  const auto is_needless = [&](BoundaryPiece& piece) {
+    FacetParts& facet = facets[piece.facet];
+    if (!facet.is_whole()) return false;
+    if (facet.first_buffer != number || facet.restored != 0) return true;
+    facet.restored = 1;
+    piece.share = facet_share::whole;
+    piece.in_general_position = facet.touched == 0;
+    return false;
+  };
+  buffer.pieces.erase(std::remove_if(buffer.pieces.begin(), buffer.pieces.end(), is_needless),
+                      buffer.pieces.end());
 }
 
 }  // namespace
 
 void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers, unsigned threads) {
-  std::vector<Shares> shares(scene.facets.size());
-  std::vector<bool> touched(scene.facets.size(), false);  // not in general position somewhere
-  for (const PieceBuffer& buffer : buffers) {
-    for (const BoundaryPiece& piece : buffer.pieces) {
-      share_of(shares, piece) += piece.share;
-      if (!piece.in_general_position) touched[piece.facet] = true;
-    }
-  }
-  std::vector<bool> done(scene.facets.size(), false);
-  for (PieceBuffer& buffer : buffers) {
-    const auto restore = [&](BoundaryPiece& piece) {
-      if (!is_whole(shares, piece)) return false;
-      if (done[piece.facet]) return true;
-      done[piece.facet] = true;
-      piece.share = facet_share::whole;
-      piece.in_general_position = !touched[piece.facet];
-      return false;
-    };
-    buffer.pieces.erase(std::remove_if(buffer.pieces.begin(), buffer.pieces.end(), restore),
-                        buffer.pieces.end());
-  }
-  in_parallel_parts(threads, buffers.size(),
-                    [&](std::size_t b) { buffers[b] = compacted(buffers[b]); });
+  std::vector<FacetParts> facets;
+  resize(threads, facets, scene.facets.size());
+  in_parallel_parts(threads, buffers.size(), [&](std::size_t b) {
+    add_parts(buffers[b], static_cast<std::uint32_t>(b), facets);
+  });
+  in_parallel_parts(threads, buffers.size(), [&](std::size_t b) {
+    restore(buffers[b], static_cast<std::uint32_t>(b), facets);
+    buffers[b] = compacted(buffers[b]);
+  });
 }
 
 }  // namespace exactcsg
