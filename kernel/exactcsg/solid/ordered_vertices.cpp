@@ -93,15 +93,60 @@ struct Positions {
   std::vector<std::array<double, 3>> nearest;
 };
 
+template <class T>
+void prefetch(const T* item) {
+  constexpr std::size_t cache_line = 64;
+  const char* const bytes = reinterpret_cast<const char*>(item);
+  for (std::size_t at = 0; at < sizeof(T); at += cache_line) __builtin_prefetch(bytes + at);
+  __builtin_prefetch(bytes + sizeof(T) - 1);
+}
+
+void prefetch(const Rational& number) {
+  for (const mpz_srcptr integer : {number.get_num_mpz_t(), number.get_den_mpz_t()}) {
+    __builtin_prefetch(mpz_limbs_read(integer));
+  }
+}
+
+// Input points lie in the order of their primitives, and their limbs elsewhere: a pass in another
+// order waits for most of them unless it asks ahead, for what leads to them first.
+class PointsAhead {
+ public:
+  PointsAhead(const Geometry& geometry, std::span<const Vertex> vertices,
+              std::span<const Approximated> wanted)
+      : geometry_(geometry), vertices_(vertices), wanted_(wanted) {}
+
+  void ask_beyond(std::size_t i) const {
+    constexpr std::size_t distance = 6;  // which takes longer than a line of memory to arrive
+    if (i + 3 * distance < wanted_.size()) prefetch(&vertex(i + 3 * distance));
+    if (i + 2 * distance < wanted_.size() && vertex(i + 2 * distance).is_point) {
+      prefetch(&geometry_.approximate(vertex(i + 2 * distance).point));
+      prefetch(&geometry_.point(vertex(i + 2 * distance).point));
+    }
+    if (i + distance < wanted_.size() && vertex(i + distance).is_point) {
+      const Point3& point = geometry_.point(vertex(i + distance).point);
+      for (std::size_t axis = 0; axis < 3; ++axis) prefetch(coordinate(point, axis));
+    }
+  }
+
+ private:
+  const Vertex& vertex(std::size_t i) const { return vertices_[wanted_[i].vertex]; }
+
+  const Geometry& geometry_;
+  std::span<const Vertex> vertices_;
+  std::span<const Approximated> wanted_;
+};
+
 Positions positions_of(const Geometry& geometry, std::span<const Vertex> vertices,
                        std::span<const Approximated> wanted, unsigned threads) {
   Positions positions;
   resize(threads, positions.nearest, wanted.size());
   const Parts parts(wanted.size());
   std::vector<ExactPoints> exact(parts.count());
+  const PointsAhead ahead(geometry, vertices, wanted);
   in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     exact[part].reserve(end - begin);
     for (std::size_t i = begin; i < end; ++i) {
+      ahead.ask_beyond(i);
       const NearPointView point = geometry.exact_view(vertices[wanted[i].vertex]);
       exact[part].push_back(point.exact);
       positions.nearest[i] = point.nearest;
