@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <numeric>
 #include <stdexcept>
@@ -53,6 +54,28 @@ TEST(Parts, BeginOnlyWhereTheyMay) {
       EXPECT_EQ(parts.begin(part) % run, 0U);
     }
     EXPECT_EQ(parts.end(parts.count() - 1), 100000U);
+  }
+}
+
+// As std::vector::resize: what was there stays, and what is new is as its type begins.
+TEST(Resize, KeepsItemsAndMakesNewOnes) {
+  struct Item {
+    std::array<std::uint64_t, 40> limbs{};
+    int mark = 7;
+  };
+  for (const unsigned threads : {1U, 3U, 0U}) {
+    for (const std::size_t size : {0U, 3U, 2000U, 20000U}) {
+      std::vector<Item> items(3);
+      items[2].limbs[39] = 5;
+      items[2].mark = 6;
+      resize(threads, items, size);
+      ASSERT_EQ(items.size(), size);
+      for (std::size_t i = 0; i < size; ++i) {
+        EXPECT_EQ(items[i].mark, i == 2 ? 6 : 7);
+        EXPECT_EQ(std::accumulate(items[i].limbs.begin(), items[i].limbs.end(), std::uint64_t{0}),
+                  i == 2 ? 5U : 0U);
+      }
+    }
   }
 }
 
