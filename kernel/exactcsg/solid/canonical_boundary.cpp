@@ -997,7 +997,12 @@ class Merger {
 
   // The loops of settled faces; those with sides that are not settled are left to `edges`.
   void add_single_faces(std::size_t begin, std::size_t end, std::vector<FaceEdge>& edges,
-                        std::vector<SingleFace>& result) const {
+                        SingleFaces& result) const {
+    if (begin < end) {
+      result.ends.reserve(end - begin);
+      const SettledFace& last = settled_faces_[end - 1];
+      result.vertices.reserve(last.first_side + last.side_count - settled_faces_[begin].first_side);
+    }
     for (const SettledFace& face : std::span(settled_faces_).subspan(begin, end - begin)) {
       const auto sides = std::span(settled_sides_).subspan(face.first_side, face.side_count);
       const auto for_each_settled_part = [&](const auto& visit) {
@@ -1012,18 +1017,30 @@ class Merger {
         });
         continue;
       }
-      std::vector<VertexNumber> loop;
-      loop.reserve(sides.size());
-      for_each_settled_part([&](VertexNumber from, VertexNumber) { loop.push_back(from); });
-      result.push_back({face.plane, std::move(loop)});
+      for_each_settled_part(
+          [&](VertexNumber from, VertexNumber) { result.vertices.push_back(from); });
+      result.ends.push_back(static_cast<std::uint32_t>(result.vertices.size()));
     }
+  }
+
+  SingleFaces joined_faces(std::vector<SingleFaces> parts) const {
+    std::vector<std::vector<VertexNumber>> vertices;
+    std::vector<std::vector<std::uint32_t>> ends;
+    std::uint32_t first = 0;
+    for (SingleFaces& part : parts) {
+      for (std::uint32_t& end : part.ends) end += first;
+      first += static_cast<std::uint32_t>(part.vertices.size());
+      vertices.push_back(std::move(part.vertices));
+      ends.push_back(std::move(part.ends));
+    }
+    return {joined(threads_, std::move(vertices)), joined(threads_, std::move(ends))};
   }
 
   // Edges of all faces that are no single ones; of these, the first are on lines.
   struct FaceParts {
     std::vector<FaceEdge> edges;
     std::size_t count_on_lines = 0;
-    std::vector<SingleFace> singles;
+    SingleFaces singles;
   };
 
   // Gives up what is known of lines: their memory is wanted for the result.
@@ -1033,7 +1050,7 @@ class Merger {
     const Parts settled(settled_faces_.size());
     const std::size_t first_settled = lines.count() + simple.count();
     std::vector<std::vector<FaceEdge>> edges(first_settled + settled.count());
-    std::vector<std::vector<SingleFace>> singles(settled.count());
+    std::vector<SingleFaces> singles(settled.count());
     in_parallel(threads_, lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
       std::vector<std::uint32_t>& rank = ranks();
       edges[part].reserve(segment_count(begin, end));
@@ -1066,7 +1083,7 @@ class Merger {
     FaceParts result;
     result.count_on_lines = first_places(edges)[lines.count()];
     result.edges = joined(threads_, std::move(edges));
-    result.singles = joined(threads_, std::move(singles));
+    result.singles = joined_faces(std::move(singles));
     return result;
   }
 
@@ -1085,8 +1102,9 @@ class Merger {
       edge.from = renumbered[edge.from];
       edge.to = renumbered[edge.to];
     });
-    in_parallel_parts(threads_, faces.singles.size(), [&](std::size_t i) {
-      for (VertexNumber& vertex : faces.singles[i].loop) vertex = renumbered[vertex];
+    in_parallel_parts(threads_, faces.singles.vertices.size(), [&](std::size_t i) {
+      VertexNumber& vertex = faces.singles.vertices[i];
+      vertex = renumbered[vertex];
     });
     link_faces(geometry_, std::move(faces.edges), std::move(faces.singles), boundary, threads_);
     boundary.statistics.pieces = statistics_pieces_;

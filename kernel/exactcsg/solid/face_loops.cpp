@@ -8,7 +8,9 @@
 #include <tuple>
 
 #include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
+#include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {
 
@@ -22,10 +24,10 @@ using Loop = std::vector<std::uint32_t>;
 
 // The loop rotated so that it starts at its smallest vertex; where that occurs several times, at
 // the occurrence that makes the loop least.
-void start_at_smallest(Loop& loop) {
+void start_at_smallest(std::span<std::uint32_t> loop) {
   auto best = std::min_element(loop.begin(), loop.end());
   const std::uint32_t smallest = *best;
-  const auto rotated_less = [&](Loop::iterator a, Loop::iterator b) {
+  const auto rotated_less = [&](auto a, auto b) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t p = loop[(static_cast<std::size_t>(a - loop.begin()) + i) % loop.size()];
       const std::uint32_t q = loop[(static_cast<std::size_t>(b - loop.begin()) + i) % loop.size()];
@@ -117,6 +119,55 @@ class LoopLinker {
   std::vector<bool> used_;
 };
 
+// Faces with several loops or any vertices, and single ones, under one row of numbers.
+class FaceRow {
+ public:
+  FaceRow(std::span<const BoundaryFace> linked, SingleFaces& singles)
+      : linked_(linked), singles_(singles) {}
+
+  std::size_t count() const { return linked_.size() + singles_.count(); }
+  bool is_single(std::size_t face) const { return face >= linked_.size(); }
+  std::size_t single(std::size_t face) const { return face - linked_.size(); }
+  std::size_t loop_count(std::size_t face) const {
+    return is_single(face) ? 1 : linked_[face].loops.size();
+  }
+  std::span<const std::uint32_t> loop(std::size_t face, std::size_t i) const {
+    if (is_single(face)) return singles_.loop(single(face));
+    return linked_[face].loops[i];
+  }
+  bool less(std::size_t face, std::size_t other) const {
+    const std::size_t in_both = std::min(loop_count(face), loop_count(other));
+    for (std::size_t i = 0; i < in_both; ++i) {
+      const auto p = loop(face, i);
+      const auto q = loop(other, i);
+      if (!std::ranges::equal(p, q)) return std::ranges::lexicographical_compare(p, q);
+    }
+    return loop_count(face) < loop_count(other);
+  }
+
+ private:
+  std::span<const BoundaryFace> linked_;
+  SingleFaces& singles_;
+};
+
+// A face to be sorted, which moves in one piece.
+struct FaceToSort {
+  std::uint32_t smallest_vertex;
+  std::uint32_t face;
+};
+
+std::vector<FaceToSort> sorted(const FaceRow& faces, std::size_t vertex_count, unsigned threads) {
+  std::vector<FaceToSort> order(faces.count());
+  in_parallel_parts(threads, order.size(), [&](std::size_t i) {
+    order[i] = {faces.loop(i, 0).front(), static_cast<std::uint32_t>(i)};
+  });
+  sort_in_buckets(
+      order, vertex_count, [](const FaceToSort& face) { return face.smallest_vertex; },
+      [&](const FaceToSort& a, const FaceToSort& b) { return faces.less(a.face, b.face); },
+      threads);
+  return order;
+}
+
 void number_planes_by_first_face(std::uint32_t planes, std::vector<BoundaryFace>& faces) {
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(planes, none);
@@ -129,8 +180,8 @@ void number_planes_by_first_face(std::uint32_t planes, std::vector<BoundaryFace>
 
 }  // namespace
 
-void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges,
-                std::vector<SingleFace> singles, Boundary& boundary, unsigned threads) {
+void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, SingleFaces singles,
+                Boundary& boundary, unsigned threads) {
   // No face lies in a wall.
   sort_in_buckets(
       edges, geometry.plane_count(),
@@ -146,8 +197,7 @@ void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges,
     return is_new_plane(i) || edges[i].face != edges[i - 1].face;
   };
   const Parts linked(edges.size(), is_new_face);
-  const Parts single(singles.size());
-  std::vector<std::vector<BoundaryFace>> faces(linked.count() + single.count());
+  std::vector<std::vector<BoundaryFace>> faces_of_parts(linked.count());
   // How many planes begin in each part, then before it.
   std::vector<std::uint32_t> planes(linked.count() + 1, 0);
   in_parallel(threads, linked, [&](std::size_t part, std::size_t part_begin, std::size_t part_end) {
@@ -163,25 +213,30 @@ void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges,
       while (end < part_end && !is_new_face(end)) ++end;
       if (is_new_plane(begin)) ++begun;
       LoopLinker linker(geometry, boundary.vertices, std::span(edges).subspan(begin, end - begin));
-      faces[part].push_back({begun - 1, linker.link()});
+      faces_of_parts[part].push_back({begun - 1, linker.link()});
       begin = end;
     }
   });
-  in_parallel(threads, single, [&](std::size_t part, std::size_t begin, std::size_t end) {
-    std::vector<BoundaryFace>& result = faces[linked.count() + part];
-    result.reserve(end - begin);
-    for (std::size_t i = begin; i < end; ++i) {
-      start_at_smallest(singles[i].loop);
-      result.push_back({planes.back() + static_cast<std::uint32_t>(i), {}});
-      result.back().loops.push_back(std::move(singles[i].loop));
+  in_parallel_parts(threads, singles.count(),
+                    [&](std::size_t i) { start_at_smallest(singles.loop(i)); });
+  give_up(edges);
+  std::vector<BoundaryFace> linked_faces = joined(threads, std::move(faces_of_parts));
+  const FaceRow faces(linked_faces, singles);
+  const std::vector<FaceToSort> order = sorted(faces, boundary.vertices.size(), threads);
+  boundary.plane_count = planes.back() + static_cast<std::uint32_t>(singles.count());
+  // Loops that are made in the order of the faces lie in it, as far as the allocator allows.
+  boundary.faces.resize(order.size());
+  in_parallel_parts(threads, order.size(), [&](std::size_t i) {
+    const std::size_t face = order[i].face;
+    BoundaryFace& result = boundary.faces[i];
+    if (!faces.is_single(face)) {
+      result = std::move(linked_faces[face]);
+      return;
     }
+    result.plane = planes.back() + static_cast<std::uint32_t>(faces.single(face));
+    const auto loop = faces.loop(face, 0);
+    result.loops.emplace_back(loop.begin(), loop.end());
   });
-  boundary.faces = joined(threads, std::move(faces));
-  boundary.plane_count = planes.back() + static_cast<std::uint32_t>(singles.size());
-  sort_in_buckets(
-      boundary.faces, boundary.vertices.size(),
-      [](const BoundaryFace& face) { return face.loops.front().front(); },
-      [](const BoundaryFace& a, const BoundaryFace& b) { return a.loops < b.loops; }, threads);
   number_planes_by_first_face(boundary.plane_count, boundary.faces);
 }
 

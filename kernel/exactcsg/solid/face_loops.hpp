@@ -3,7 +3,9 @@
 
 // Directed edges of faces linked to loops, and faces in canonical order. [Exact]
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "exactcsg/number/geometry.hpp"
@@ -19,17 +21,24 @@ struct FaceEdge {
   std::uint32_t to = 0;
 };
 
-// A face that is the only one in its plane, with a loop that meets no vertex twice.
-struct SingleFace {
-  OrientedPlaneRef plane;
-  std::vector<std::uint32_t> loop;  // indices of the boundary's vertices, from any of them
+// Faces that are the only ones in their planes, each with one loop that meets no vertex twice. The
+// loops lie one after the other.
+struct SingleFaces {
+  std::vector<std::uint32_t> vertices;  // indices of the boundary's vertices, from any of a loop
+  std::vector<std::uint32_t> ends;      // of each loop, among them
+
+  std::size_t count() const { return ends.size(); }
+  std::span<std::uint32_t> loop(std::size_t face) {
+    const std::uint32_t begin = face == 0 ? 0 : ends[face - 1];
+    return std::span(vertices).subspan(begin, ends[face] - begin);
+  }
 };
 
 // Sets boundary.faces and boundary.plane_count. Where a face touches itself at a vertex, its
 // interior is kept connected on the left of each passage. REQUIRES no edge lies in the plane of a
 // single face. REQUIRES boundary.vertices and approximate are set. THROWS Error(InternalError) if
 // edges do not balance at some vertex of a face.
-void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges,
-                std::vector<SingleFace> singles, Boundary& boundary, unsigned threads = 1);
+void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, SingleFaces singles,
+                Boundary& boundary, unsigned threads = 1);
 
 }  // namespace exactcsg
