@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -37,6 +38,18 @@ class RandomPoints {
   std::mt19937_64 random_;
 };
 
+// Where the line through the first two points meets the plane through the other three, if it does
+// in one point: by Cramer's rule, with the planes through the line and each of two more points.
+std::optional<Point3> line_and_plane(const std::array<Point3, 5>& points, const Point3& r,
+                                     const Point3& s) {
+  const auto& [p, q, a, b, c] = points;
+  const auto first = reference::plane_through(p, q, r);
+  const auto second = reference::plane_through(p, q, s);
+  const auto third = reference::plane_through(a, b, c);
+  if (reference::determinant(first, second, third) == 0) return std::nullopt;
+  return reference::meeting_point(first, second, third);
+}
+
 // Equal rationals are compared by numerators and denominators: the result is in lowest terms.
 TEST(MeetingPoint, OfALineAndAPlane) {
   RandomPoints random(1);
@@ -48,21 +61,62 @@ TEST(MeetingPoint, OfALineAndAPlane) {
     // A plane across an axis now and then.
     if (round % 5 == 0) a.z = b.z = c.z;
     if (round % 7 == 0) a.x = b.x = c.x;
-    // Any two planes through p and q.
-    const Point3 r = random(0);
-    const Point3 s = random(0);
-    const auto first = reference::plane_through(p, q, r);
-    const auto second = reference::plane_through(p, q, s);
-    const auto third = reference::plane_through(a, b, c);
-    if (reference::determinant(first, second, third) == 0) continue;
+    const auto met = line_and_plane(points, random(0), random(0));
+    if (!met) continue;
     ++compared;
-    const Point3 expected = reference::meeting_point(first, second, third);
+    const Point3& expected = *met;
     const PointView by_points = meeting_point_of_line(p, q, plane_form_through(a, b, c));
     EXPECT_EQ(point_of(by_points), expected);
     const PlaneForm by_coefficients = plane_form_of(plane_through(a, b, c));
     EXPECT_EQ(point_of(meeting_point_of_line(p, q, by_coefficients)), expected);
   }
   EXPECT_GT(compared, 2000);
+}
+
+// Copies of shapes whose coordinates are doubles, or products of two, moved by decimals: the lines'
+// directions and the planes' normals do not have the decimals' denominators any more. Points that
+// are as high as one another give horizontal lines, and planes with a short side.
+TEST(MeetingPoint, OfCopiesMovedByDecimals) {
+  std::mt19937_64 random(5);
+  const auto below = [&](long n) {
+    return static_cast<long>(random() % static_cast<std::uint64_t>(n));
+  };
+  const auto dyadic = [&] {
+    Rational result(below(2000001) - 1000000, 1L << below(40));
+    result.canonicalize();
+    return below(3) == 0 ? Rational(result * result * result) : result;
+  };
+  const auto decimal = [&](long denominator) {
+    Rational result(below(2000001) - 1000000, denominator);
+    result.canonicalize();
+    return result;
+  };
+  int compared = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const std::array<Point3, 2> moves{
+        Point3{decimal(1000000), decimal(1000000), decimal(1000)},
+        Point3{decimal(1000000), decimal(round % 3 == 0 ? 999999 : 1000000), decimal(100)}};
+    std::array<Point3, 5> points;
+    for (std::size_t i = 0; i < 5; ++i) {
+      const Point3& move = moves[i < 2 ? 0 : 1];
+      points[i] = {dyadic() + move.x, dyadic() + move.y, dyadic() + move.z};
+    }
+    auto& [p, q, a, b, c] = points;
+    if (round % 2 == 0) q.z = p.z;
+    if (round % 3 == 0) (round % 9 == 0 ? a.y : b.y) = c.y;
+    if (round % 7 == 0) p = a;  // the line meets the plane in an input point
+    const auto expected =
+        line_and_plane(points, {below(7), below(7), below(7)}, {below(7), below(7), below(7)});
+    if (!expected) continue;
+    ++compared;
+    const PointView met = meeting_point_of_line(p, q, plane_form_through(a, b, c));
+    EXPECT_EQ(point_of(met), *expected);
+    // LAW view.1
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_TRUE(equal(met[axis], view_of(coordinate(*expected, axis))));
+    }
+  }
+  EXPECT_GT(compared, 1000);
 }
 
 // The views of exact points, with the nearest doubles of all coordinates.

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "exactcsg/number/common_denominator.hpp"
 #include "exactcsg/number/limbs.hpp"
+#include "exactcsg/number/short_meeting.hpp"
 
 namespace exactcsg {
 
@@ -208,6 +210,7 @@ void set_dot(Integer& result, const Vector& a, const Vector& b) {
 }  // namespace
 
 PlaneForm plane_form_through(const Point3& p, const Point3& q, const Point3& r) {
+  if (auto form = short_plane_form_through(p, q, r)) return *std::move(form);
   Scratch& s = scratch();
   auto& [a, b, c] = s.points;
   set_scaled(a, p, s.factor);
@@ -281,6 +284,7 @@ RationalView coordinate_of_line(Scratch& s, std::size_t i, const Integer& direct
 }  // namespace
 
 PointView meeting_point_of_line(const Point3& p, const Point3& q, const PlaneForm& plane) {
+  if (const auto met = short_meeting_point_of_line(p, q, plane)) return *met;
   Scratch& s = scratch();
   auto& from = s.points[0];
   auto& to = s.points[1];

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Planes and meeting points of input points whose coordinates are short, as nearly all are: as
+// line_meeting.hpp says, in integers of few limbs. Private to number/. [Exact]
+
+#include <optional>
+
+#include "exactcsg/number/line_meeting.hpp"
+
+namespace exactcsg {
+
+// LAW short_meeting.1  the plane of plane_form_through, and the view of meeting_point_of_line, or
+// nothing if a number is too long.
+std::optional<PlaneForm> short_plane_form_through(const Point3& p, const Point3& q,
+                                                  const Point3& r);
+std::optional<PointView> short_meeting_point_of_line(const Point3& p, const Point3& q,
+                                                     const PlaneForm& plane);
+
+}  // namespace exactcsg
