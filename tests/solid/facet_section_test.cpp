@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -39,12 +40,23 @@ class FacetSectionTest : public testing::Test {
     return append_polygon(corners, store_);
   }
 
-  // REQUIRES the plane cuts it
-  CornerRun cut(const CornerRun& polygon, PlaneRef plane, Sign kept) {
+  std::vector<Sign> signs_of(const CornerRun& polygon, PlaneRef plane) {
     std::vector<Sign> signs;
     for (const SectionCorner& corner : store_.of(polygon)) {
       signs.push_back(scene_.geometry.side(store_.vertex(corner), plane, statistics_));
     }
+    return signs;
+  }
+
+  bool is_cut_by(const CornerRun& polygon, PlaneRef plane) {
+    const std::vector<Sign> signs = signs_of(polygon, plane);
+    const auto occurs = [&](Sign sign) { return std::ranges::find(signs, sign) != signs.end(); };
+    return occurs(Sign::Negative) && occurs(Sign::Positive);
+  }
+
+  // REQUIRES the plane cuts it
+  CornerRun cut(const CornerRun& polygon, PlaneRef plane, Sign kept) {
+    const std::vector<Sign> signs = signs_of(polygon, plane);
     const CuttingPlane by{plane, signs};
     const auto crossings = append_crossings(scene_.geometry, z_, polygon, by, store_);
     return append_part(polygon, by, kept, crossings, store_);
@@ -54,11 +66,30 @@ class FacetSectionTest : public testing::Test {
   CornerRun cut_by_diamond(CornerRun polygon) {
     for (const SceneFacet& facet : scene_.facets) {
       const Plane& plane = scene_.geometry.exact_plane(facet.plane.plane);
-      if (plane.c != 0) continue;
+      if (plane.c != 0 || !is_cut_by(polygon, facet.plane.plane)) continue;
       polygon =
           cut(polygon, facet.plane.plane, facet.plane.sense > 0 ? Sign::Negative : Sign::Positive);
     }
     return polygon;
+  }
+
+  // What is left of the half of a polygon beside the polygon's section with the diamond.
+  Left left_of_half(const CornerRun& polygon, PlaneRef plane, Sign kept) {
+    const CornerRun section = cut_by_diamond(polygon);
+    const CornerRun half = cut(polygon, plane, kept);
+    const std::vector<Sign> signs = signs_of(section, plane);
+    const CuttingPlane by{plane, signs};
+    const auto crossings = append_crossings(scene_.geometry, z_, section, by, store_);
+    const CornerRun part = append_part_of_half(section, by, kept, crossings, half, store_);
+    forget_whole(half, store_);
+    Left left = left_of(half, part);
+    EXPECT_EQ(area_of(half) - area_of(part),
+              std::accumulate(left.areas.begin(), left.areas.end(), 0.0));
+    // Both are the same point set; the other way is that of all other tests.
+    const Left by_cutting = left_of(half, cut_by_diamond(half));
+    EXPECT_EQ(left.is_ring, by_cutting.is_ring);
+    EXPECT_EQ(left.loops, by_cutting.loops);
+    return left;
   }
 
   template <class Corners>
@@ -188,6 +219,59 @@ TEST_F(FacetSectionTest, TakesCornersOfThePolygonForPlacesOnItsRim) {
   // The triangle (0, -1), (0, 1), (1, 0) has the side x = 0 of the rectangle in common.
   EXPECT_EQ(left.areas, std::vector<double>{3});
   EXPECT_EQ(left.corner_counts, std::vector<std::size_t>{5});
+}
+
+// The diamond's corner at (1, 0) is cut off along x = 1/2.
+TEST_F(FacetSectionTest, CutsASectionWithItsPolygon) {
+  const CornerRun polygon = rectangle(-2, -2, 2, 2);
+  const Left below = left_of_half(polygon, x(0.5), Sign::Negative);
+  EXPECT_FALSE(below.is_ring);
+  EXPECT_EQ(below.areas, std::vector<double>{10 - 1.75});
+  EXPECT_EQ(below.corner_counts, std::vector<std::size_t>{4 + 2 + 3});
+  const Left above = left_of_half(polygon, x(0.5), Sign::Positive);
+  EXPECT_FALSE(above.is_ring);
+  EXPECT_EQ(above.areas, std::vector<double>{6 - 0.25});
+  EXPECT_EQ(above.corner_counts, std::vector<std::size_t>{4 + 2 + 1});
+}
+
+// The diamond touches three sides of the square's half, and has a fourth side in common with it.
+TEST_F(FacetSectionTest, CutsASectionOnTheRimWithItsPolygon) {
+  Left left = left_of_half(rectangle(-1, -1, 1, 1), x(0.5), Sign::Negative);
+  EXPECT_FALSE(left.is_ring);
+  std::sort(left.areas.begin(), left.areas.end());
+  EXPECT_EQ(left.areas, (std::vector<double>{0.125, 0.125, 0.5, 0.5}));
+  EXPECT_EQ(left.corner_counts, (std::vector<std::size_t>{3, 3, 3, 3}));
+}
+
+// Two corners of the diamond lie in the plane.
+TEST_F(FacetSectionTest, CutsASectionThroughItsCorners) {
+  const Left left = left_of_half(rectangle(-2, -2, 2, 2), x(0), Sign::Negative);
+  EXPECT_FALSE(left.is_ring);
+  EXPECT_EQ(left.areas, std::vector<double>{8 - 1});
+  EXPECT_EQ(left.corner_counts, std::vector<std::size_t>{4 + 2 + 1});
+}
+
+// The half has a side of its own along the diamond's.
+TEST_F(FacetSectionTest, FindsASectionOnTheRimOfAHalf) {
+  for (const SceneFacet& facet : scene_.facets) {
+    if (scene_.geometry.exact_plane(facet.plane.plane).c != 0) continue;
+    const Sign inner = facet.plane.sense > 0 ? Sign::Negative : Sign::Positive;
+    const Left left = left_of_half(rectangle(-2, -2, 2, 2), facet.plane.plane, inner);
+    EXPECT_FALSE(left.is_ring);
+    EXPECT_EQ(left.areas, std::vector<double>{16 - 4.5 - 2});
+    EXPECT_EQ(left.corner_counts, std::vector<std::size_t>{5 + 2 + 2});
+  }
+}
+
+// A corner of the diamond alone lies on the half's new side, or the diamond is off it.
+TEST_F(FacetSectionTest, FindsASectionThatTouchesAHalfOrNot) {
+  const Left touching = left_of_half(rectangle(-2, -2, 2, 2), x(1), Sign::Negative);
+  EXPECT_FALSE(touching.is_ring);
+  EXPECT_EQ(touching.areas, std::vector<double>{12 - 2});
+  EXPECT_EQ(touching.corner_counts, std::vector<std::size_t>{4 + 5});
+  const Left apart = left_of_half(rectangle(-2, -2, 2, 2), x(1.5), Sign::Negative);
+  EXPECT_TRUE(apart.is_ring);
+  EXPECT_EQ(apart.areas, (std::vector<double>{14, -2}));
 }
 
 // LAW section.2

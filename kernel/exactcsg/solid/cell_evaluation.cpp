@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "exactcsg/number/side_bound.hpp"
 #include "exactcsg/solid/polygon.hpp"
@@ -37,7 +38,7 @@ void CellEvaluator::build_local_forms(std::span<const CellFacet> facets) {
     const LocalPlace root = convex ? LocalPlace::decided(Membership::Out)
                                    : local_form_of_mesh(facets.subspan(begin, end - begin));
     locals_.push_back({primitive, convex, root, static_cast<std::uint32_t>(begin),
-                       static_cast<std::uint32_t>(end - begin)});
+                       static_cast<std::uint32_t>(end - begin), static_cast<std::uint32_t>(begin)});
     begin = end;
   }
 }
@@ -109,7 +110,7 @@ bool CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree
     decided_.clear();
     crossings_.clear();
     for (std::uint32_t place = 0; place < order_.size(); ++place) {
-      crossings_.push_back({place, {}, {}});
+      crossings_.push_back({place, {}, {}, false});
     }
     const PieceCollector::Mark before = result.mark();
     classify({append_polygon(facet.polygon.corners, store_), facet.share}, {0, order_.size()});
@@ -177,15 +178,18 @@ CellEvaluator::Outcome CellEvaluator::decide_uncrossed(Part& part, Crossings& ca
   const BothSides out{Membership::Out, Membership::Out};
   const std::size_t first_crossing = crossings_.size();
   bool coplanar_crosses = false;
+  bool is_section = false;
   for (std::size_t i = candidates.begin; i < candidates.end; ++i) {
-    Crossing crossing{crossings_[i].place, {}, {Membership::In, Membership::In}};
+    Crossing crossing = crossings_[i];
+    const bool is_known = std::exchange(crossing.is_known, false) && !is_section;
     if (const auto outward = outward_sense()) {
       if (*outward == 0) return Outcome::NoBoundary;
       if (!coplanar_crosses && !is_coplanar(crossing)) return Outcome::Boundary;
     }
-    const LocalPrimitive& other = local(crossing);
-    const Relation relation =
-        other.convex ? relate(part.polygon, other, crossing) : Relation::Across;
+    LocalPrimitive& other = locals_[order_[crossing.place]];
+    const Relation relation = !other.convex ? Relation::Across
+                              : is_known    ? relation_of(crossing.section)
+                                            : relate(part.polygon, other, crossing);
     switch (relation) {
       case Relation::Outside:
         decide(other.primitive, out);
@@ -200,10 +204,12 @@ CellEvaluator::Outcome CellEvaluator::decide_uncrossed(Part& part, Crossings& ca
           decide(other.primitive, crossing.inside);
           part = {crossing.section, part.share / 2};
           forget_whole(part.polygon, store_);
+          is_section = true;
           if (crossings_.size() == first_crossing) break;
           // What crossed the part as it was may not cross what is left of it.
           for (std::size_t later = i + 1; later < candidates.end; ++later) {
             crossings_.push_back(Crossing(crossings_[later]));
+            crossings_.back().is_known = false;
           }
           candidates = {first_crossing, crossings_.size()};
           return decide_uncrossed(part, candidates);
@@ -223,44 +229,55 @@ CellEvaluator::Outcome CellEvaluator::decide_uncrossed(Part& part, Crossings& ca
   return Outcome::Undecided;
 }
 
-// All planes are looked at before any of them cuts: one that leaves the polygon outside ends it.
-CellEvaluator::Relation CellEvaluator::relate(const CornerRun& polygon, const LocalPrimitive& local,
+// All planes are looked at before any of them cuts: one that leaves the polygon outside ends it,
+// and is asked first of the next polygon, which mostly is a neighbour of this one.
+CellEvaluator::Relation CellEvaluator::relate(const CornerRun& polygon, LocalPrimitive& local,
                                               Crossing& crossing) {
   const PlaneRef own = facet_->polygon.plane.plane;
   const auto outside = [](OrientedPlaneRef plane) {
     return plane.sense > 0 ? PlaneSplit::AllPositive : PlaneSplit::AllNegative;
   };
+  crossing.inside = {Membership::In, Membership::In};
   cutting_.clear();
-  for (std::uint32_t i = local.first_facet; i < local.first_facet + local.facet_count; ++i) {
+  const std::uint32_t end = local.first_facet + local.facet_count;
+  std::uint32_t i = local.separating;
+  do {
     const OrientedPlaneRef plane = planes_[i].oriented;
     if (plane.plane == own) {
       crossing.inside = plane.sense > 0 ? BothSides{Membership::Out, Membership::In}
                                         : BothSides{Membership::In, Membership::Out};
-      continue;
+    } else {
+      const PlaneSplit side = split_without_signs(polygon, planes_[i]);
+      if (side == outside(plane)) {
+        local.separating = i;
+        return Relation::Outside;
+      }
+      if (side == PlaneSplit::Both) cutting_.push_back(i);
     }
-    const PlaneSplit side = split(polygon, planes_[i]);
-    if (side == outside(plane)) return Relation::Outside;
-    if (side != PlaneSplit::Both) continue;
-    if (cutting_.empty()) signs_.swap(first_signs_);
-    cutting_.push_back(i);
-  }
+    if (++i == end) i = local.first_facet;
+  } while (i != local.separating);
   if (cutting_.empty()) return Relation::Inside;
   crossing.section = polygon;
-  for (const std::uint32_t i : cutting_) {
-    const OrientedPlaneRef plane = planes_[i].oriented;
-    if (i == cutting_.front()) {
-      signs_.swap(first_signs_);
-    } else {
-      const PlaneSplit side = split(crossing.section, planes_[i]);
-      if (side == outside(plane)) return Relation::Outside;
-      if (side != PlaneSplit::Both) continue;
-    }
+  for (const std::uint32_t cutting : cutting_) {
+    const OrientedPlaneRef plane = planes_[cutting].oriented;
+    const PlaneSplit side = split(crossing.section, planes_[cutting]);
+    if (side == outside(plane)) return Relation::Outside;
+    if (side != PlaneSplit::Both) continue;
     const CuttingPlane cut{plane.plane, signs_};
     const auto crossed = append_crossings(scene_.geometry, own, crossing.section, cut, store_);
     const Sign inner = plane.sense > 0 ? Sign::Negative : Sign::Positive;
     crossing.section = append_part(crossing.section, cut, inner, crossed, store_);
   }
   return Relation::Across;
+}
+
+// Of a section with the part at hand.
+CellEvaluator::Relation CellEvaluator::relation_of(const CornerRun& section) const {
+  const std::span<const SectionCorner> corners = store_.of(section);
+  const bool is_all = std::none_of(corners.begin(), corners.end(), [](const SectionCorner& corner) {
+    return corner.side == SectionCorner::none;
+  });
+  return is_all ? Relation::Inside : Relation::Across;
 }
 
 // The sides of all corners into signs_.
@@ -277,16 +294,43 @@ Sign CellEvaluator::side(const Vertex& vertex, PlaneRef plane) {
 // The same by one bound for all of the cell's vertices; where it does not decide, by their own.
 PlaneSplit CellEvaluator::split(const CornerRun& polygon, const NearPlane& near) {
   std::size_t decided = 0;
-  const PlaneSplit result = split_with(polygon, [&](const Vertex& v) {
-    const double value = near.a * v.x + near.b * v.y + near.c * v.z + near.d;
-    if (!(std::fabs(value) > near.bound && v.error <= error_limit_)) {
-      return side(v, near.oriented.plane);
-    }
-    ++decided;
-    return value > 0 ? Sign::Positive : Sign::Negative;
-  });
+  const PlaneSplit result =
+      split_with(polygon, [&](const Vertex& v) { return side(v, near, decided); });
   statistics_->answers[static_cast<std::size_t>(Tier::Double)] += decided;
   return result;
+}
+
+inline Sign CellEvaluator::side(const Vertex& v, const NearPlane& near, std::size_t& decided) {
+  const double value = near.a * v.x + near.b * v.y + near.c * v.z + near.d;
+  if (!(std::fabs(value) > near.bound && v.error <= error_limit_)) {
+    return side(v, near.oriented.plane);
+  }
+  ++decided;
+  return value > 0 ? Sign::Positive : Sign::Negative;
+}
+
+// Corners behind those that say Both are not asked: the plane cuts the polygon, and then its
+// section is asked.
+PlaneSplit CellEvaluator::split_without_signs(const CornerRun& polygon, const NearPlane& near) {
+  std::size_t decided = 0;
+  bool negative = false;
+  bool positive = false;
+  for (const SectionCorner& corner : store_.of(polygon)) {
+    const Sign sign = side(store_.vertex(corner), near, decided);
+    negative |= sign == Sign::Negative;
+    positive |= sign == Sign::Positive;
+    if (negative && positive) break;
+  }
+  statistics_->answers[static_cast<std::size_t>(Tier::Double)] += decided;
+  return split_of(negative, positive);
+}
+
+PlaneSplit CellEvaluator::split_of(bool negative, bool positive) {
+  if (negative && positive) return PlaneSplit::Both;
+  if (!negative && !positive) {
+    throw Error(ErrorId::InternalError, {"a facet in a plane that is not its own", ""});
+  }
+  return positive ? PlaneSplit::AllPositive : PlaneSplit::AllNegative;
 }
 
 template <class SideOf>
@@ -301,11 +345,7 @@ PlaneSplit CellEvaluator::split_with(const CornerRun& polygon, const SideOf& sid
     negative |= sign == Sign::Negative;
     positive |= sign == Sign::Positive;
   }
-  if (negative && positive) return PlaneSplit::Both;
-  if (!negative && !positive) {
-    throw Error(ErrorId::InternalError, {"a facet in a plane that is not its own", ""});
-  }
-  return positive ? PlaneSplit::AllPositive : PlaneSplit::AllNegative;
+  return split_of(negative, positive);
 }
 
 void CellEvaluator::divide(const Part& part, Crossings crossings) {
@@ -330,19 +370,31 @@ void CellEvaluator::divide(const Part& part, Crossings crossings) {
 }
 
 // Of the primitives that cross the whole, those with a section on the other side leave this half
-// outside.
+// outside; of the others the section with the half is what it has of theirs.
 void CellEvaluator::classify_half(const Part& half, Crossings crossings, PlaneRef plane,
                                   PlaneSplit other_side) {
   const std::size_t first_decided = decided_.size();
   const std::size_t first_candidate = crossings_.size();
   for (std::size_t i = crossings.begin; i < crossings.end; ++i) {
-    const Crossing crossing = crossings_[i];
-    if (split(crossing.section, plane) == other_side) {
+    Crossing crossing = crossings_[i];
+    const PlaneSplit split_section = split(crossing.section, plane);
+    if (split_section == other_side) {
       decide(local(crossing).primitive, {Membership::Out, Membership::Out});
-    } else {
-      crossings_.push_back(crossing);
+      continue;
     }
+    const CuttingPlane cut{plane, signs_};
+    std::array<std::uint32_t, 2> crossed{};
+    if (split_section == PlaneSplit::Both) {
+      crossed = append_crossings(scene_.geometry, facet_->polygon.plane.plane, crossing.section,
+                                 cut, store_);
+    }
+    const Sign kept = other_side == PlaneSplit::AllNegative ? Sign::Positive : Sign::Negative;
+    crossing.section =
+        append_part_of_half(crossing.section, cut, kept, crossed, half.polygon, store_);
+    crossing.is_known = true;
+    crossings_.push_back(crossing);
   }
+  forget_whole(half.polygon, store_);
   classify(half, {first_candidate, crossings_.size()});
   crossings_.resize(first_candidate);
   undo_decisions(first_decided);
@@ -379,11 +431,21 @@ PlaneRef CellEvaluator::choose_plane(Crossings crossings) {
   for (std::size_t i = section.begin; i < section.end; ++i) {
     if (store_.corners[i].side != SectionCorner::none) continue;
     const PlaneRef plane = store_.corners[i].side_plane;
-    const PlaneSplit inner = split(section, plane);
+    const auto side_of = [&](const SectionCorner& corner) {
+      return side(store_.vertex(corner), plane);
+    };
+    Sign inner = Sign::Zero;
+    for (const SectionCorner& corner : store_.of(section)) {
+      inner = side_of(corner);
+      if (inner != Sign::Zero) break;
+    }
     std::size_t beyond = 0;
     for (std::size_t other = crossings.begin + 1; other < crossings.end; ++other) {
-      const PlaneSplit side = split(crossings_[other].section, plane);
-      if (side != PlaneSplit::Both && side != inner) ++beyond;
+      const std::span<const SectionCorner> corners = store_.of(crossings_[other].section);
+      if (std::none_of(corners.begin(), corners.end(),
+                       [&](const SectionCorner& corner) { return side_of(corner) == inner; })) {
+        ++beyond;
+      }
     }
     if (!best || beyond > most_beyond) {
       best = plane;
@@ -395,7 +457,7 @@ PlaneRef CellEvaluator::choose_plane(Crossings crossings) {
   return *best;
 }
 
-// REQUIRES the signs of split, which said Both
+// As append_part leaves them. REQUIRES the signs of split, which said Both
 std::array<CellEvaluator::Part, 2> CellEvaluator::halves(const Part& part, PlaneRef plane) {
   const CuttingPlane cut{plane, signs_};
   const auto crossed =
@@ -404,7 +466,6 @@ std::array<CellEvaluator::Part, 2> CellEvaluator::halves(const Part& part, Plane
   for (const Sign kept : {Sign::Positive, Sign::Negative}) {
     Part& half = result[kept == Sign::Positive ? 0 : 1];
     half = {append_part(part.polygon, cut, kept, crossed, store_), part.share / 2};
-    forget_whole(half.polygon, store_);
   }
   return result;
 }
@@ -432,6 +493,8 @@ void CellEvaluator::descend(Part part, LocalPlace front, LocalPlace behind, Cros
     if (side == PlaneSplit::Both) {
       in_general_position_ = false;
       const auto [positive, negative] = halves(part, node.plane);
+      forget_whole(positive.polygon, store_);
+      forget_whole(negative.polygon, store_);
       descend(positive, follow(front, true), follow(behind, true), crossings);
       descend(negative, follow(front, false), follow(behind, false), crossings);
       return;

@@ -81,6 +81,7 @@ class CellEvaluator {
     LocalPlace root;            // of a mesh
     std::uint32_t first_facet;  // in the cell
     std::uint32_t facet_count;
+    std::uint32_t separating;  // of its facets, that whose plane left a polygon outside last
   };
   // The plane of a facet of the cell. A value of a x + b y + c z + d beyond the bound has the right
   // sign.
@@ -94,6 +95,7 @@ class CellEvaluator {
     std::uint32_t place;  // in order_
     CornerRun section;    // of the part with a convex primitive
     BothSides inside;     // what such a primitive is in front of the section and behind it
+    bool is_known;        // the section is that with the part to be classified
   };
   // A row of them.
   struct Crossings {
@@ -112,7 +114,8 @@ class CellEvaluator {
   void classify(Part part, Crossings candidates);
   bool is_no_boundary_if(PrimitiveIndex primitive, const BothSides& sides);
   Outcome decide_uncrossed(Part& part, Crossings& candidates);
-  Relation relate(const CornerRun& polygon, const LocalPrimitive& local, Crossing& crossing);
+  Relation relate(const CornerRun& polygon, LocalPrimitive& local, Crossing& crossing);
+  Relation relation_of(const CornerRun& section) const;
   void divide(const Part& part, Crossings crossings);
   void classify_half(const Part& half, Crossings crossings, PlaneRef plane, PlaneSplit other_side);
   void emit_on_either_side(const Part& part, const Crossing& crossing);
@@ -133,6 +136,9 @@ class CellEvaluator {
   PlaneSplit split_with(const CornerRun& polygon, const SideOf& side_of);
   PlaneSplit split(const CornerRun& polygon, PlaneRef plane);
   PlaneSplit split(const CornerRun& polygon, const NearPlane& near);
+  Sign side(const Vertex& v, const NearPlane& near, std::size_t& decided);
+  PlaneSplit split_without_signs(const CornerRun& polygon, const NearPlane& near);
+  static PlaneSplit split_of(bool negative, bool positive);
   void undo_decisions(std::size_t count);
   void decide(PrimitiveIndex primitive, const BothSides& sides);
   void emit(const CornerRun& polygon, std::uint64_t share, signed char outward);
@@ -156,7 +162,6 @@ class CellEvaluator {
   double error_limit_ = 0;              // of vertices for which their bounds hold
   std::vector<std::uint32_t> cutting_;  // of them, those that may cut the part at hand
   std::vector<Sign> signs_;
-  std::vector<Sign> first_signs_;
   std::vector<LoopCorner> loop_;
   const CellFacet* facet_ = nullptr;
   bool in_general_position_ = true;

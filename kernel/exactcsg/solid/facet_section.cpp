@@ -97,8 +97,13 @@ std::array<std::uint32_t, 2> append_crossings(const Geometry& geometry, PlaneRef
   return result;
 }
 
-CornerRun append_part(const CornerRun& polygon, const CuttingPlane& cut, Sign kept,
-                      const std::array<std::uint32_t, 2>& crossings, SectionStore& store) {
+namespace {
+
+// The corners of append_part, one after the other, and whether they lie in the cutting plane.
+template <class Visit>
+CornerRun append_each(const CornerRun& polygon, const CuttingPlane& cut, Sign kept,
+                      const std::array<std::uint32_t, 2>& crossings, SectionStore& store,
+                      const Visit& adapt) {
   constexpr std::int32_t none = SectionCorner::none;
   CornerRun part{store.corners.size(), 0};
   std::size_t crossing = 0;
@@ -107,25 +112,91 @@ CornerRun append_part(const CornerRun& polygon, const CuttingPlane& cut, Sign ke
     const Sign there = cut.signs[i + 1 == polygon.size() ? 0 : i + 1];
     const SectionCorner corner = store.corners[polygon.begin + i];
     if (here == kept || here == Sign::Zero) {
-      store.corners.push_back(corner);
+      SectionCorner kept_corner = corner;
       // A corner in the cutting plane whose next side leaves the kept part starts the cut side.
       if (here == Sign::Zero && there != kept) {
-        store.corners.back().side = none;
-        store.corners.back().side_plane = cut.plane;
+        kept_corner.side = none;
+        kept_corner.side_plane = cut.plane;
       }
+      store.corners.push_back(adapt(kept_corner, here == Sign::Zero));
     }
     if (here != Sign::Zero && there == -here) {
       const std::int32_t place = corner.side == none ? none : 2 * corner.side + 1;
       const std::uint32_t vertex = crossings[crossing++];
-      if (there == kept) {
-        store.corners.push_back({vertex, corner.side, place, corner.side_plane});
-      } else {
-        store.corners.push_back({vertex, none, place, cut.plane});
-      }
+      const SectionCorner crossed =
+          there == kept ? SectionCorner{vertex, corner.side, place, corner.side_plane}
+                        : SectionCorner{vertex, none, place, cut.plane};
+      store.corners.push_back(adapt(crossed, true));
     }
   }
   part.end = store.corners.size();
   return part;
+}
+
+// What sides and places of a polygon are for its half, whose corners still have the polygon's.
+class HalfRim {
+ public:
+  HalfRim(const CornerRun& half, const SectionStore& store)
+      : half_(half), store_(store), cut_side_(side(none)) {}
+
+  SectionCorner operator()(SectionCorner corner, bool is_in_cut, PlaneRef cut) const {
+    if (corner.side != none) {
+      corner.side = side(corner.side);
+    } else if (corner.side_plane == cut) {
+      corner.side = cut_side_;
+    }
+    if (corner.place != none) {
+      corner.place = place(corner.place, is_in_cut);
+    } else if (is_in_cut) {
+      corner.place = 2 * cut_side_ + 1;
+    }
+    return corner;
+  }
+
+ private:
+  static constexpr std::int32_t none = SectionCorner::none;
+
+  std::int32_t side(std::int32_t old) const {
+    return find([=](const SectionCorner& corner) { return corner.side == old; });
+  }
+  // Of the half's corners in the cut, that on the same side of the polygon; or as it was.
+  std::int32_t place(std::int32_t old, bool is_in_cut) const {
+    if (old % 2 == 0 || is_in_cut) {
+      return 2 * find([=](const SectionCorner& corner) { return corner.place == old; });
+    }
+    return 2 * side(old / 2) + 1;
+  }
+  template <class Predicate>
+  std::int32_t find(const Predicate& predicate) const {
+    const std::span<const SectionCorner> corners = store_.of(half_);
+    const auto found = std::find_if(corners.begin(), corners.end(), predicate);
+    if (found == corners.end()) {
+      throw Error(ErrorId::InternalError, {"a section that leaves its polygon", "a part of it"});
+    }
+    return static_cast<std::int32_t>(found - corners.begin());
+  }
+
+  CornerRun half_;
+  const SectionStore& store_;  // which grows meanwhile
+  std::int32_t cut_side_;
+};
+
+}  // namespace
+
+CornerRun append_part(const CornerRun& polygon, const CuttingPlane& cut, Sign kept,
+                      const std::array<std::uint32_t, 2>& crossings, SectionStore& store) {
+  return append_each(polygon, cut, kept, crossings, store,
+                     [](const SectionCorner& corner, bool) { return corner; });
+}
+
+CornerRun append_part_of_half(const CornerRun& section, const CuttingPlane& cut, Sign kept,
+                              const std::array<std::uint32_t, 2>& crossings, const CornerRun& half,
+                              SectionStore& store) {
+  const HalfRim rim(half, store);
+  return append_each(section, cut, kept, crossings, store,
+                     [&](const SectionCorner& corner, bool is_in_cut) {
+                       return rim(corner, is_in_cut, cut.plane);
+                     });
 }
 
 Remainder::Remainder(const CornerRun& polygon, const CornerRun& section, const SectionStore& store)

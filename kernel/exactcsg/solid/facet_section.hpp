@@ -90,6 +90,13 @@ std::array<std::uint32_t, 2> append_crossings(const Geometry& geometry, PlaneRef
 CornerRun append_part(const CornerRun& polygon, const CuttingPlane& cut, Sign kept,
                       const std::array<std::uint32_t, 2>& crossings, SectionStore& store);
 
+// The same of a section of the polygon that `half` is the same plane's part of, on the same side: a
+// section of the half. REQUIRES the half is as append_part left it. A section that lies on the kept
+// side as a whole has no crossings.
+CornerRun append_part_of_half(const CornerRun& section, const CuttingPlane& cut, Sign kept,
+                              const std::array<std::uint32_t, 2>& crossings, const CornerRun& half,
+                              SectionStore& store);
+
 // Makes a section a polygon of its own.
 void forget_whole(const CornerRun& section, SectionStore& store);
 
