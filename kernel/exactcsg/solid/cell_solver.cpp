@@ -92,10 +92,16 @@ bool CellSolver::touches_walls(const CellTask& task) const {
     return std::abs(vertex.coordinate(axis) - wall) > vertex.error * (1 + 0x1p-50) ||
            is_made_by(vertex, PlaneRef::of_wall(axis, wall));
   };
-  const auto is_off_walls = [&](const Corner& corner) {
+  const auto is_off_walls = [&](const ClippedFacet& facet) {
+    const std::span<const Corner> corners = task.corners_of(facet);
     return std::ranges::all_of(std::array{Axis::X, Axis::Y, Axis::Z}, [&](Axis axis) {
-      return is_off(corner.vertex, axis, cell.lower[static_cast<std::size_t>(axis)]) &&
-             is_off(corner.vertex, axis, cell.upper[static_cast<std::size_t>(axis)]);
+      const auto i = static_cast<std::size_t>(axis);
+      const auto are_off = [&](double wall) {
+        return std::ranges::all_of(
+            corners, [&](const Corner& corner) { return is_off(corner.vertex, axis, wall); });
+      };
+      return (facet.bounds[i].lower > cell.lower[i] || are_off(cell.lower[i])) &&
+             (facet.bounds[i].upper < cell.upper[i] || are_off(cell.upper[i]));
     });
   };
   for (const PrimitiveFacets& facets : task.primitives) {
@@ -104,7 +110,7 @@ bool CellSolver::touches_walls(const CellTask& task) const {
       if (!is_inside(task.whole_facet(scene_, facets, i))) return true;
     }
     for (const ClippedFacet& facet : task.clipped_of(facets)) {
-      if (!std::ranges::all_of(task.corners_of(facet), is_off_walls)) return true;
+      if (!is_off_walls(facet)) return true;
     }
   }
   return false;

@@ -34,10 +34,12 @@ constexpr std::size_t inseparable_planes = 3;
 // Where a facet is with respect to a wall.
 enum class WallSide : unsigned char { Below, Above, Both, Within };
 
+// signs: of all corners, appended.
 WallSide exact_wall_side(const Geometry& geometry, const CornerView& corners,
                          const Division& division, std::vector<Sign>& signs,
                          TierStatistics& statistics) {
-  signs.resize(corners.size());
+  const std::size_t first = signs.size();
+  signs.resize(first + corners.size());
   bool below = false;
   bool above = false;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -45,14 +47,14 @@ WallSide exact_wall_side(const Geometry& geometry, const CornerView& corners,
     const double difference = value - division.position;
     // The filter of compare_coordinate, without the vertex.
     if (std::abs(difference) > error * (1 + 0x1p-50)) {
-      signs[i] = difference > 0 ? Sign::Positive : Sign::Negative;
+      signs[first + i] = difference > 0 ? Sign::Positive : Sign::Negative;
       statistics.record(Tier::Double, false);
     } else {
-      signs[i] = geometry.compare_coordinate(corners.vertex(i), division.axis, division.position,
-                                             statistics);
+      signs[first + i] = geometry.compare_coordinate(corners.vertex(i), division.axis,
+                                                     division.position, statistics);
     }
-    below |= signs[i] == Sign::Negative;
-    above |= signs[i] == Sign::Positive;
+    below |= signs[first + i] == Sign::Negative;
+    above |= signs[first + i] == Sign::Positive;
   }
   if (below && above) return WallSide::Both;
   if (below) return WallSide::Below;
@@ -78,7 +80,7 @@ struct Decomposition::Scratch {
   std::vector<unsigned char> in_tree;  // a bit for either child
   csg::PruneScratch<PrunedTree> prune;
   std::vector<WallSide> sides;
-  std::vector<Sign> signs;
+  std::vector<Sign> signs;  // of the corners of facets that are cut
 };
 
 struct Decomposition::ScratchPerThread : PerThread<Scratch> {
@@ -113,7 +115,8 @@ class Decomposition::Divider {
   // Where the facets of one primitive are.
   struct PrimitiveSides {
     WallSide side = WallSide::Within;  // of all; Both: of some only, or unknown
-    std::size_t first = 0;  // of its facets' in Scratch::sides, if they are not on one side
+    std::size_t first = 0;       // of its facets' in Scratch::sides, if they are not on one side
+    std::size_t first_sign = 0;  // likewise in Scratch::signs
     std::array<std::uint32_t, 2> counts{};  // that reach each child
     // Of these, facets that will be clipped ones there, and how many corners they have at most.
     std::array<std::uint32_t, 2> clipped_counts{};
@@ -128,6 +131,7 @@ class Decomposition::Divider {
 
   void find_sides() {
     scratch_.sides.clear();
+    scratch_.signs.clear();
     primitive_sides_.reserve(task_.primitives.size());
     for (const PrimitiveFacets& facets : task_.primitives) {
       primitive_sides_.push_back(sides_of(facets));
@@ -149,6 +153,7 @@ class Decomposition::Divider {
       return result;
     }
     result.first = scratch_.sides.size();
+    result.first_sign = scratch_.signs.size();
     // A cut adds a corner to a part at most.
     const auto add = [&](WallSide side, bool is_clipped, std::size_t corner_count) {
       scratch_.sides.push_back(side);
@@ -175,8 +180,13 @@ class Decomposition::Divider {
     return result;
   }
 
+  // Keeps the signs if the wall cuts the facet.
   WallSide exact_side(const CornerView& corners) {
-    return exact_wall_side(scene_.geometry, corners, division_, scratch_.signs, task_.statistics);
+    const std::size_t before = scratch_.signs.size();
+    const WallSide side =
+        exact_wall_side(scene_.geometry, corners, division_, scratch_.signs, task_.statistics);
+    if (side != WallSide::Both) scratch_.signs.resize(before);
+    return side;
   }
 
   void prepare_child(std::size_t which) {
@@ -303,7 +313,7 @@ class Decomposition::Divider {
         const std::size_t which = sides.side == WallSide::Below ? 0 : 1;
         if (open_[which]) take_all(children_[which], facets);
       } else if (open_[0] || open_[1]) {
-        distribute_facets(facets, sides.first);
+        distribute_facets(facets, sides);
       }
       for (std::size_t which = 0; which < 2; ++which) {
         if (open_[which]) end_primitive(children_[which]);
@@ -344,8 +354,9 @@ class Decomposition::Divider {
     child.corners.insert(child.corners.end(), corners.begin(), corners.end());
   }
 
-  void distribute_facets(const PrimitiveFacets& facets, std::size_t first_side) {
-    const WallSide* side = scratch_.sides.data() + first_side;
+  void distribute_facets(const PrimitiveFacets& facets, const PrimitiveSides& sides) {
+    const WallSide* side = scratch_.sides.data() + sides.first;
+    next_sign_ = sides.first_sign;
     for (std::uint32_t i = 0; i < facets.whole_count; ++i, ++side) {
       const FacetIndex facet = task_.whole_facet(scene_, facets, i);
       if (*side == WallSide::Both) {
@@ -365,16 +376,15 @@ class Decomposition::Divider {
   }
 
   void cut(FacetIndex facet, std::uint64_t share, const CornerView& corners) {
-    // The signs are needed again; the filter makes them cheap.
-    exact_side(corners);
+    const auto signs = std::span(scratch_.signs).subspan(next_sign_, corners.size());
+    next_sign_ += corners.size();
     const PolygonCut cut(scene_.geometry, corners, scene_.facets[facet].plane.plane,
-                         PlaneRef::of_wall(division_.axis, division_.position), scratch_.signs);
+                         PlaneRef::of_wall(division_.axis, division_.position), signs);
     for (std::size_t which = 0; which < 2; ++which) {
       if (!open_[which]) continue;
       CellTask& child = children_[which];
       ClippedFacet part{facet, static_cast<std::uint32_t>(child.corners.size()), 0, share / 2, {}};
-      cut.append_part(corners, scratch_.signs, which == 0 ? Sign::Negative : Sign::Positive,
-                      child.corners);
+      cut.append_part(corners, signs, which == 0 ? Sign::Negative : Sign::Positive, child.corners);
       part.corner_count = static_cast<std::uint32_t>(child.corners.size()) - part.first_corner;
       widen(part.bounds, std::span(child.corners).subspan(part.first_corner));
       child.clipped.push_back(part);
@@ -400,6 +410,7 @@ class Decomposition::Divider {
   std::vector<PrimitiveSides> primitive_sides_;
   std::array<bool, 2> open_{};  // the children that take facets of the primitive at hand
   std::optional<Vertex> inner_point_;
+  std::size_t next_sign_ = 0;  // that of the facet to be cut next
 };
 
 Decomposition::Decomposition(const Scene& scene, std::size_t facets_per_cell, Progress* progress)
@@ -611,6 +622,7 @@ bool Decomposition::has_facet_in_wall(const CellTask& task, const Division& divi
   };
   const auto is_in_wall = [&](const Range& bounds, const CornerView& corners) {
     if (wall_side(bounds, division) != WallSide::Both) return false;
+    signs.clear();
     return !any_is_clearly_off(corners) &&
            exact_wall_side(scene_.geometry, corners, division, signs, unused) == WallSide::Within;
   };
