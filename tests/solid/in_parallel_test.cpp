@@ -3,6 +3,7 @@
 #include "exactcsg/solid/in_parallel.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <array>
 #include <atomic>
@@ -21,6 +22,19 @@ TEST(InParallel, EveryRoundIsRunOnce) {
     for (const auto& count : runs) EXPECT_EQ(count, 2);
     in_parallel(threads, 0, [](std::size_t) { FAIL(); });
     in_parallel_parts(threads, 0, [](std::size_t) { FAIL(); });
+  }
+}
+
+// Whatever arena the caller is in, and from within a round.
+TEST(InParallel, EveryRoundIsRunOnceInsideOfOthers) {
+  for (const int places : {1, 2, 4}) {
+    tbb::task_arena(places).execute([] {
+      std::vector<std::atomic<int>> runs(3000);
+      in_parallel(2, 3, [&](std::size_t i) {
+        in_parallel(0, 1000, [&](std::size_t j) { ++runs[1000 * i + j]; });
+      });
+      for (const auto& count : runs) EXPECT_EQ(count, 1);
+    });
   }
 }
 

@@ -28,7 +28,6 @@
 //                 does in one thread.
 
 #include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
@@ -46,6 +45,7 @@
 #include <vector>
 
 #include "exactcsg/skeleton/hand_over.hpp"
+#include "exactcsg/skeleton/in_arena.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg::skeleton {
@@ -424,11 +424,8 @@ class ParallelExecutor {
   typename A::Result run(typename A::Problem problem, A& algorithm) const {
     detail::ParallelRun<A, WorthATask> parallel(algorithm, worth_a_task_);
     std::optional<typename A::Result> result;
-    tbb::task_arena arena(concurrency());
     const detail::TakeOverAtEnd before_unwinding(&result);
-    detail::hand_over(&arena);
-    arena.execute([&] {  // perhaps by another thread, if all places of the arena are taken
-      detail::take_over(&arena);
+    detail::in_arena(concurrency(), [&] {
       const detail::HandOverAtEnd done(&result);
       tbb::task_group group;  // so that an outer computation's cancellation is not taken for ours
       group.run_and_wait([&] { result = parallel.run(std::move(problem), levels_); });

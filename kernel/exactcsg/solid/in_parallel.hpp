@@ -15,6 +15,7 @@
 
 #include "exactcsg/number/tier_statistics.hpp"
 #include "exactcsg/skeleton/hand_over.hpp"
+#include "exactcsg/skeleton/in_arena.hpp"
 #include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {
@@ -47,9 +48,11 @@ void in_parallel(unsigned threads, std::size_t count, const Round& round) {
       throw;
     }
   };
-  tbb::task_arena arena(static_cast<int>(used));
   const skeleton::detail::TakeOverAtEnd before_unwinding(&next);
-  arena.execute([&] {
+  // Not more threads than tasks are used anyway.
+  const std::size_t places = std::max<std::size_t>(
+      used, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+  skeleton::detail::in_arena(static_cast<int>(places), [&] {
     tbb::task_group group;
     for (std::size_t task = 1; task < used; ++task) {
       group.run(skeleton::detail::HandedOver(take_rounds, &next));
