@@ -147,9 +147,10 @@ void ExactPoints::push_back(const PointView& view) {
       *to++ = packed(shapes[i], long_size_bits);
     }
   }
+  // Loops instead of calls: there are few limbs.
   for (const RationalView& value : view) {
-    to = std::copy(value.numerator.begin(), value.numerator.end(), to);
-    to = std::copy(value.denominator.begin(), value.denominator.end(), to);
+    for (const mp_limb_t limb : value.numerator) *to++ = limb;
+    for (const mp_limb_t limb : value.denominator) *to++ = limb;
   }
 }
 

@@ -28,11 +28,27 @@ class LexicographicOrder {
         [this](std::uint32_t i, std::uint32_t j) { return nearest_[i] < nearest_[j]; }, threads);
     const Parts parts(order.size(), [&](std::size_t i) { return x(order[i]) != x(order[i - 1]); });
     in_parallel(threads, parts, [&](std::size_t, std::size_t begin, std::size_t end) {
-      settle(std::span(order).subspan(begin, end - begin), 0);
+      const auto run = std::span(order).subspan(begin, end - begin);
+      if (!ascends(run)) settle(run, 0);
     });
   }
 
  private:
+  // Whether it does so exactly, as it does by doubles; not, if equal doubles leave it open.
+  bool ascends(std::span<const std::uint32_t> run) const {
+    PointView last = exact_.view(run.front());
+    for (std::size_t k = 1; k < run.size(); ++k) {
+      const PointView next = exact_.view(run[k]);
+      const std::array<double, 3>& p = nearest_[run[k - 1]];
+      const std::array<double, 3>& q = nearest_[run[k]];
+      for (std::size_t axis = 0; axis < 3 && p[axis] == q[axis]; ++axis) {
+        if (!equal(last[axis], next[axis])) return false;
+      }
+      last = next;
+    }
+    return true;
+  }
+
   // The coordinates before `axis` are equal, and the rest is sorted by doubles.
   void settle(std::span<std::uint32_t> run, std::size_t axis) const {
     for (std::size_t begin = 0; begin < run.size();) {

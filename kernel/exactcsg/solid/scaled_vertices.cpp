@@ -145,7 +145,9 @@ class GridScaling {
 
   void operator()(Limbs result, const RationalView& value) {
     if (result.size() == 2 && !value.is_zero()) {
-      if (const auto quotient = short_quotient(value)) {
+      auto quotient = short_quotient(value);
+      if (!quotient) quotient = quotient_of_heads(value);
+      if (quotient) {
         const UnsignedInt128 magnitude = UnsignedInt128{quotient->high} << 64U | quotient->low;
         // -(q + rest) is between -q - 1 and -q.
         const UnsignedInt128 scaled =
@@ -206,6 +208,52 @@ class GridScaling {
     }
     quotient.whole = rest == 0;
     return quotient;
+  }
+
+  // The first 128 bits of a magnitude, the first of them set, the lower limb first.
+  struct LongHead {
+    std::array<mp_limb_t, 2> limbs{};
+    long length = 0;  // of the whole, in bits
+  };
+
+  static LongHead long_head(LimbSpan value) {
+    const std::size_t size = value.size();
+    const auto limb = [&](std::size_t i) { return i <= size ? value[size - i] : 0; };
+    const int zeros = std::countl_zero(limb(1));
+    const auto joined = [&](mp_limb_t high, mp_limb_t low) {
+      return high << zeros | low >> 1U >> (63 - zeros);
+    };
+    return {{joined(limb(2), limb(3)), joined(limb(1), limb(2))},
+            static_cast<long>(size) * GMP_NUMB_BITS - zeros};
+  }
+
+  // Of long numbers, if it is certain where they are cut. With n and d the heads of numerator and
+  // denominator as integers, cut by less than 1, value 2^shift is n / d 2^e, e the difference of
+  // the lengths and the shift, and n / d is between 1/2 and 2; f = floor(n 2^126 / d) is at most
+  // 1 above and 2 below value 2^shift 2^(126 - e).
+  std::optional<ShortQuotient> quotient_of_heads(const RationalView& value) {
+    if (value.denominator.empty()) return std::nullopt;
+    const LongHead n = long_head(value.numerator);
+    const LongHead d = long_head(value.denominator);
+    const long e = n.length - d.length + shift_;
+    constexpr long bits = 126;
+    constexpr long most = bits - 12;
+    if (e < 0 || e > most) return std::nullopt;
+    // n 2^128, that is, two bits more.
+    const std::array<mp_limb_t, 4> dividend{0, 0, n.limbs[0], n.limbs[1]};
+    std::array<mp_limb_t, 3> quotient{};
+    std::array<mp_limb_t, 2> remainder{};
+    mpn_tdiv_qr(quotient.data(), remainder.data(), 0, dividend.data(), 4, d.limbs.data(), 2);
+    const UnsignedInt128 f = (UnsignedInt128{quotient[1]} << 64U | quotient[0]) >> 2U |
+                             UnsignedInt128{quotient[2]} << bits;
+    const auto cut = static_cast<unsigned>(bits - e);
+    constexpr unsigned margin = 8;
+    const UnsignedInt128 result = f >> cut;
+    if ((f + margin) >> cut != result || f < margin || (f - margin) >> cut != result) {
+      return std::nullopt;
+    }
+    return ShortQuotient{static_cast<mp_limb_t>(result), static_cast<mp_limb_t>(result >> 64U),
+                         false};
   }
 
   // Whether nothing was cut off.
