@@ -439,12 +439,23 @@ class SceneBuilder {
   }
 
   Scene finish(unsigned threads) && {
+    // The first touch of large vectors takes about as long as all that is done to build a geometry.
+    std::optional<Geometry> geometry;
+    std::vector<PointCorner> corners;
+    std::vector<SceneFacet> facets;
+    SceneBounds bounds;
+    in_parallel(threads, 2, [&](std::size_t task) {
+      if (task == 0) {
+        geometry.emplace(std::move(builder_).build());
+        return;
+      }
+      resize(threads, corners, corner_count_);
+      resize(threads, facets, facet_count_);
+      for (std::vector<Range>& axis : bounds.facets) resize(threads, axis, facet_count_);
+    });
     Scene scene{
-        std::move(builder_).build(), std::move(primitives_), {}, {}, {}, {}, std::move(tree_), {}};
-    scene.root = root_cell();
-    resize(threads, scene.corners, corner_count_);
-    resize(threads, scene.facets, facet_count_);
-    for (std::vector<Range>& bounds : scene.bounds.facets) resize(threads, bounds, facet_count_);
+        std::move(*geometry), std::move(primitives_), std::move(facets), std::move(corners), {},
+        std::move(bounds),    std::move(tree_),       root_cell()};
     in_parallel(threads, Parts(facet_count_), [&](std::size_t, std::size_t begin, std::size_t end) {
       fill_facets(scene, static_cast<FacetIndex>(begin), static_cast<FacetIndex>(end));
     });
