@@ -90,6 +90,15 @@ void copy_coordinate(const Geometry::Data& data, PointId id, std::size_t axis,
       std::isfinite(near.error) ? coordinate(near, axis) : round_to_nearest(exact).value;
 }
 
+NearPointView input_point(const Geometry::Data& data, PointId id) {
+  const ApproximatePoint& near = data.points.approximate(id);
+  NearPointView result{view_of(data.points.exact(id)), {near.x, near.y, near.z}};
+  if (!std::isfinite(near.error)) {
+    for (std::size_t axis = 0; axis < 3; ++axis) copy_coordinate(data, id, axis, result);
+  }
+  return result;
+}
+
 bool agree(const Geometry::Data& data, const PointPair& line, std::size_t axis) {
   const ApproximatePoint& p = data.points.approximate(line.first);
   const ApproximatePoint& q = data.points.approximate(line.second);
@@ -155,11 +164,7 @@ NearPointView meet_line(const Geometry::Data& data, const PointPair& line, std::
 }  // namespace
 
 NearPointView Geometry::exact_view(const Vertex& v) const {
-  NearPointView result;
-  if (v.is_point) {
-    for (std::size_t axis = 0; axis < 3; ++axis) copy_coordinate(*data_, v.point, axis, result);
-    return result;
-  }
+  if (v.is_point) return input_point(*data_, v.point);
   if (const auto corner = corner_of_axes(*data_, v)) return *corner;
   for (std::size_t i = 0; i < 3; ++i) {
     const PlaneRef plane = v.planes[i];
@@ -168,6 +173,7 @@ NearPointView Geometry::exact_view(const Vertex& v) const {
       return meet_line(*data_, *line, plane.table_index());
     }
   }
+  NearPointView result;
   const auto [p, q, r] = data_->operands(v);
   thread_local Point3 met;
   met = point_of(meeting_point(load<Integer>(p), load<Integer>(q), load<Integer>(r)));

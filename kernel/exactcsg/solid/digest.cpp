@@ -8,6 +8,7 @@
 #include <compare>
 #include <cstring>
 #include <numeric>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -70,8 +71,18 @@ class NumberTexts {
   };
 
   explicit NumberTexts(std::size_t count) : texts_(count) {
-    for (std::size_t i = 0; i < count; ++i) texts_[i] = text_of(i);
+    Text text = text_of(0);
+    for (std::size_t i = 0; i < count; ++i) {
+      texts_[i] = text;
+      char& last = text.characters[text.length - std::size_t{2}];
+      if (last == '9') {
+        text = text_of(i + 1);
+      } else {
+        ++last;
+      }
+    }
   }
+  std::size_t count() const { return texts_.size(); }
   const Text& operator[](std::size_t number) const { return texts_[number]; }
 
   static Text text_of(std::size_t number) {
@@ -254,6 +265,23 @@ std::vector<std::uint32_t> inverse_of(const std::vector<std::uint32_t>& order) {
   return rank;
 }
 
+bool are_in_order(std::span<const BoundaryEdge> edges) {
+  return std::ranges::all_of(edges, [](const BoundaryEdge& e) { return e.from <= e.to; }) &&
+         std::ranges::is_sorted(edges);
+}
+
+std::vector<BoundaryEdge> renamed_edges(const Boundary& boundary,
+                                        std::span<const std::uint32_t> rename) {
+  std::vector<BoundaryEdge> edges;
+  edges.reserve(boundary.edges.size());
+  for (const BoundaryEdge& e : boundary.edges) {
+    edges.push_back(
+        {std::min(rename[e.from], rename[e.to]), std::max(rename[e.from], rename[e.to])});
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
 }  // namespace
 
 std::string digest(const Boundary& boundary) {
@@ -267,7 +295,8 @@ std::string digest(const Boundary& boundary) {
   };
   std::vector<std::uint32_t> rank(boundary.vertices.size());
   begin_vertices();
-  if (add_ascending(text, boundary)) {
+  const bool ascend = add_ascending(text, boundary);
+  if (ascend) {
     std::iota(rank.begin(), rank.end(), 0U);
   } else {
     text = HashedText();
@@ -278,12 +307,12 @@ std::string digest(const Boundary& boundary) {
   }
 
   const NumberTexts numbers(rank.size());
-  std::vector<BoundaryEdge> edges;
-  edges.reserve(boundary.edges.size());
-  for (const BoundaryEdge& e : boundary.edges) {
-    edges.push_back({std::min(rank[e.from], rank[e.to]), std::max(rank[e.from], rank[e.to])});
+  std::vector<BoundaryEdge> renamed;
+  std::span<const BoundaryEdge> edges = boundary.edges;
+  if (!ascend || !are_in_order(edges)) {
+    renamed = renamed_edges(boundary, rank);
+    edges = renamed;
   }
-  if (!std::is_sorted(edges.begin(), edges.end())) std::sort(edges.begin(), edges.end());
   section("edges", edges.size());
   for (const BoundaryEdge& e : edges) text.add_line<2>({&numbers[e.from], &numbers[e.to]});
 
@@ -291,7 +320,8 @@ std::string digest(const Boundary& boundary) {
   section("planes", sides.planes().size());
   section("sides", sides.count());
   for (std::size_t plane = 0; plane < sides.planes().size(); ++plane) {
-    const NumberTexts::Text plane_text = NumberTexts::text_of(plane);
+    const NumberTexts::Text plane_text =
+        plane < numbers.count() ? numbers[plane] : NumberTexts::text_of(plane);
     for (const Side side : sides.planes()[plane]) {
       text.add_line<3>({&plane_text, &numbers[side.from()], &numbers[side.to()]});
     }
