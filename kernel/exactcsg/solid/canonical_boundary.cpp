@@ -19,6 +19,7 @@
 #include "exactcsg/solid/line_interning.hpp"
 #include "exactcsg/solid/line_sum.hpp"
 #include "exactcsg/solid/ordered_vertices.hpp"
+#include "exactcsg/solid/oriented_table_plane.hpp"
 #include "exactcsg/solid/per_thread.hpp"
 #include "exactcsg/solid/piece_row.hpp"
 #include "exactcsg/solid/settled_facets.hpp"
@@ -38,8 +39,8 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // A piece's edge as the face's boundary would walk it: the piece on the left, seen from outside.
 struct PieceEdge {
-  OrientedPlaneRef plane;
   PlaneRef side_plane;
+  OrientedTablePlane plane;
   VertexNumber from;
   VertexNumber to;
   PieceNumber piece;
@@ -47,7 +48,7 @@ struct PieceEdge {
 
 // Part of a line that bounds pieces of one oriented plane on one side only.
 struct Segment {
-  OrientedPlaneRef plane;
+  OrientedTablePlane plane;
   VertexNumber from;
   VertexNumber to;
   PieceNumber piece;
@@ -65,8 +66,8 @@ struct LineContent {
 // An edge between two settled facets. It is no part of a numbered line: no other piece lies in the
 // plane of either.
 struct SettledEdge {
-  PlaneRef first;
-  PlaneRef second;  // first < second
+  std::uint32_t first;  // planes of the table, the lower one first
+  std::uint32_t second;
   VertexNumber from;
   VertexNumber to;  // from < to
   std::uint32_t
@@ -76,7 +77,7 @@ struct SettledEdge {
 
 // The only piece in its plane.
 struct SettledFace {
-  OrientedPlaneRef plane;
+  OrientedTablePlane plane;
   PieceNumber piece;
   std::uint32_t first_side = 0;  // among those of all settled faces
   std::uint32_t side_count = 0;
@@ -86,8 +87,8 @@ struct SettledFace {
 // An edge of the result, if both ends are vertices: there pieces of two planes end, and none goes
 // on.
 struct SimpleEdge {
-  OrientedPlaneRef left;  // walked from `from` to `to`
-  OrientedPlaneRef right;
+  OrientedTablePlane left;  // walked from `from` to `to`
+  OrientedTablePlane right;
   PieceNumber left_piece;
   PieceNumber right_piece;
   VertexNumber from;
@@ -317,7 +318,7 @@ class Merger {
     VertexNumber to = corners.next(i);
     if (from == to) broken("a piece of boundary with two equal corners");
     if (piece.corner_sense != piece.plane.sense) std::swap(from, to);
-    edges_[places.next.edges++] = {piece.plane, corners.side_planes[i], from, to, number};
+    edges_[places.next.edges++] = {corners.side_planes[i], piece.plane, from, to, number};
   }
 
   void add_settled_face(const BoundaryPiece& piece, PieceNumber number,
@@ -340,9 +341,10 @@ class Merger {
       if (from == to) broken("a piece of boundary with two equal corners");
       // The facet on the other side walks it from `to` to `from`.
       if (from > to) continue;
-      const auto [first, second] = std::minmax(piece.plane.plane, side_plane);
-      const bool may_be_touched =
-          !settled_.is_in_general_position(first) && !settled_.is_in_general_position(second);
+      const bool may_be_touched = !settled_.is_in_general_position(piece.plane.plane) &&
+                                  !settled_.is_in_general_position(side_plane);
+      const auto [first, second] =
+          std::minmax({piece.plane.plane.table_index(), side_plane.table_index()});
       places.settled_edges.push_back(
           {first, second, from, to, whole_primitive_of(piece), may_be_touched});
     }
@@ -415,8 +417,8 @@ class Merger {
     in_parallel(threads_, simple.size(), [&](std::size_t part) {
       std::erase_if(simple[part], [&](const SimpleEdge& edge) {
         if (is_vertex_[edge.from] && is_vertex_[edge.to]) return false;
-        left[part].push_back({edge.left, edge.right.plane, edge.from, edge.to, edge.left_piece});
-        left[part].push_back({edge.right, edge.left.plane, edge.to, edge.from, edge.right_piece});
+        left[part].push_back({edge.right.plane(), edge.left, edge.from, edge.to, edge.left_piece});
+        left[part].push_back({edge.left.plane(), edge.right, edge.to, edge.from, edge.right_piece});
         return true;
       });
     });
@@ -453,7 +455,7 @@ class Merger {
   // Of two edges with the same ends. In general position no other edge is on this stretch of the
   // line: the surface turns from the one plane to the other here.
   bool is_simple(const PieceEdge& a, const PieceEdge& b) const {
-    return a.plane.plane == b.side_plane && b.plane.plane == a.side_plane && a.from == b.to &&
+    return a.plane.plane() == b.side_plane && b.plane.plane() == a.side_plane && a.from == b.to &&
            in_general_position_[a.piece] && in_general_position_[b.piece];
   }
 
@@ -473,7 +475,7 @@ class Merger {
     in_parallel(threads_, simple.size(), [&](std::size_t part) {
       for (const SimpleEdge& edge : simple[part]) {
         const auto [first, second] =
-            std::minmax({edge.left.plane.table_index(), edge.right.plane.table_index()});
+            std::minmax({edge.left.table_index(), edge.right.table_index()});
         const std::uint64_t line = std::uint64_t{first} << 32U | second;
         for (const VertexNumber vertex : {edge.from, edge.to}) {
           std::uint64_t known = unknown;
@@ -496,7 +498,7 @@ class Merger {
     };
     std::vector<Keyed> order(edges.size());
     in_parallel_parts(threads_, edges.size(), [&](std::size_t i) {
-      const auto [first, second] = std::minmax(edges[i].plane.plane, edges[i].side_plane);
+      const auto [first, second] = std::minmax({edges[i].plane.plane(), edges[i].side_plane});
       order[i] = {first, second, static_cast<std::uint32_t>(i)};
     });
     // By the first plane, so that neighbours lie side by side, but a plane may have most of the
@@ -691,7 +693,7 @@ class Merger {
     for (const std::uint32_t i : group) {
       add_events(rank[edges[i].from], rank[edges[i].to], edges[i].piece, events);
     }
-    const OrientedPlaneRef plane = edges[group[0]].plane;
+    const OrientedTablePlane plane = edges[group[0]].plane;
     sum_along_line(events,
                    [&](const auto& left, const auto& right, std::uint32_t low, std::uint32_t high) {
                      if (left && right) {
@@ -779,11 +781,12 @@ class Merger {
       for (std::size_t i = begin; i < end; ++i) {
         const SettledEdge& edge = settled_edges_[i];
         if (!edge.may_be_touched) continue;
-        result[lines.count() + part].push_back({{edge.first, edge.second},
-                                                static_cast<LineNumber>(lines_.size() + i),
-                                                edge.from,
-                                                edge.to,
-                                                edge.primitive});
+        result[lines.count() + part].push_back(
+            {{PlaneRef::of_table(edge.first), PlaneRef::of_table(edge.second)},
+             static_cast<LineNumber>(lines_.size() + i),
+             edge.from,
+             edge.to,
+             edge.primitive});
       }
     });
     return joined(threads_, std::move(result));

@@ -184,8 +184,7 @@ void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, SingleFac
                 Boundary& boundary, unsigned threads) {
   // No face lies in a wall.
   sort_in_buckets(
-      edges, geometry.plane_count(),
-      [](const FaceEdge& edge) { return edge.plane.plane.table_index(); },
+      edges, geometry.plane_count(), [](const FaceEdge& edge) { return edge.plane.table_index(); },
       [](const FaceEdge& a, const FaceEdge& b) {
         return std::tie(a.plane, a.face) < std::tie(b.plane, b.face);
       },

@@ -10,12 +10,13 @@
 
 #include "exactcsg/number/geometry.hpp"
 #include "exactcsg/solid/boundary.hpp"
+#include "exactcsg/solid/oriented_table_plane.hpp"
 
 namespace exactcsg {
 
 // An edge as a face's boundary walks it: the face on the left, seen from outside.
 struct FaceEdge {
-  OrientedPlaneRef plane;
+  OrientedTablePlane plane;
   std::uint32_t face = 0;  // any number that edges of one face share
   std::uint32_t from = 0;  // indices of the boundary's vertices
   std::uint32_t to = 0;
