@@ -102,7 +102,7 @@ Answer answer_of(const Solid& solid, const EvaluateOptions& options) {
 Json solve_tree(const std::string& name, std::size_t size, unsigned threads) {
   const Workload workload = make_workload(name, size);
   const Stopwatch reading;
-  const Solid solid = solid_of(workload.model);  // checks meshes, places copies of shapes
+  const Solid solid = solid_of(workload.model, threads);  // checks meshes, places copies of shapes
   Json result;
   result["load"] = reading.seconds();
 
@@ -241,7 +241,7 @@ Json solve_sequence(const std::string& name, std::size_t side, unsigned threads)
 Json solve_change(const std::string& name, std::size_t size, unsigned threads) {
   EvaluateOptions options;
   options.threads = threads;
-  IncrementalEvaluation design(solid_of(make_workload(name, size).model), options);
+  IncrementalEvaluation design(solid_of(make_workload(name, size).model, threads), options);
   design.boundary();
   const Occurrence moved{design.occurrence_count() / 2};
   Json result;

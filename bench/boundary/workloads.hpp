@@ -27,6 +27,7 @@
 #include "exactcsg/csg/tree.hpp"
 #include "exactcsg/csg/walk.hpp"
 #include "exactcsg/io/openscad/tessellation.hpp"
+#include "exactcsg/solid/primitive_in_parallel.hpp"
 #include "exactcsg/solid/solid.hpp"
 
 namespace exactcsg::bench {
@@ -471,6 +472,9 @@ inline Workload make_workload(const std::string& name, std::size_t size) {
 // Makes primitives of shapes, like shapes of one polyhedron.
 class PrimitiveMaker {
  public:
+  // threads: as in EvaluateOptions
+  explicit PrimitiveMaker(unsigned threads = 1) : threads_(threads) {}
+
   Primitive operator()(const Shape& shape) {
     const auto& [a, b, c] = shape.sizes;
     switch (shape.kind) {
@@ -483,7 +487,7 @@ class PrimitiveMaker {
       case Shape::Kind::Capsule:
         return polytope(capsule(shape), shape.map);
       case Shape::Kind::Mesh:
-        return apply(shape.map, Primitive{mesh(shape.mesh)});
+        return apply(shape.map, Primitive{mesh(shape.mesh)}, threads_);
     }
     throw std::logic_error("a shape of no kind");
   }
@@ -510,15 +514,18 @@ class PrimitiveMaker {
   const PolyhedralMesh& mesh(const std::shared_ptr<const Polyhedron>& polyhedron) {
     const auto found = meshes_.find(polyhedron.get());
     if (found != meshes_.end()) return found->second;
-    return meshes_.emplace(polyhedron.get(), make_mesh(*polyhedron)).first->second;
+    return meshes_.emplace(polyhedron.get(), make_mesh(*polyhedron, threads_)).first->second;
   }
 
+  unsigned threads_;
   io::openscad::ShapeCache cache_;
   std::map<std::tuple<Rational, Rational, std::size_t>, io::openscad::IntegerPolyhedron> capsules_;
   std::map<const Polyhedron*, PolyhedralMesh> meshes_;
 };
 
-inline Solid solid_of(const Model& model) { return csg::map(model, PrimitiveMaker()); }
+inline Solid solid_of(const Model& model, unsigned threads = 1) {
+  return csg::map(model, PrimitiveMaker(threads));
+}
 
 // ---- as text ----------------------------------------------------------------------------------
 

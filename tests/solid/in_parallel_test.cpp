@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Expected: what the same loop does on one thread.
 #include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/solid/first_error.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -9,6 +10,7 @@
 #include <atomic>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 
 namespace exactcsg {
 namespace {
@@ -45,6 +47,28 @@ TEST(InParallel, AnExceptionIsThrownOn) {
                                if (i == 70) throw std::runtime_error("round 70");
                              }),
                  std::runtime_error);
+  }
+}
+
+// As a loop in order: rounds before the first that fails are run, and its exception is the one.
+TEST(InParallel, TheFirstErrorIsThrownOn) {
+  for (const unsigned threads : {1U, 2U, 0U}) {
+    for (int repetition = 0; repetition < 20; ++repetition) {
+      std::vector<std::atomic<int>> runs(300);
+      try {
+        in_parallel_to_first_error(threads, runs.size(), [&](std::size_t i) {
+          ++runs[i];
+          if (i >= 130 && i % 2 == 1) throw std::runtime_error(std::to_string(i));
+        });
+        FAIL();
+      } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "131");
+      }
+      for (std::size_t i = 0; i <= 131; ++i) EXPECT_EQ(runs[i], 1);
+    }
+    std::atomic<int> count = 0;
+    in_parallel_to_first_error(threads, 100, [&](std::size_t) { ++count; });
+    EXPECT_EQ(count, 100);
   }
 }
 

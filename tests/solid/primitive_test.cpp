@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "exactcsg/solid/primitive_in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 #include "solid/polyhedra.hpp"
 #include "time_limits.hpp"
@@ -457,6 +458,36 @@ TEST_F(RandomPairs, AgreeWithClippingInRationals) {
   }
   EXPECT_GT(proper, 60);
   EXPECT_GT(improper, 200);
+}
+
+// What a single thread says of a mesh with several faults is what is to be said of it.
+TEST(MakeMesh, DoesNotDependOnTheNumberOfThreads) {
+  const auto told_of = [](const Polyhedron& polyhedron, unsigned threads) -> std::string {
+    try {
+      const PolyhedralMesh mesh = make_mesh(polyhedron, threads);
+      const PolyhedralMesh expected = make_mesh(polyhedron);
+      EXPECT_TRUE(mesh.polyhedron->facets == expected.polyhedron->facets);
+      EXPECT_TRUE(mesh.polyhedron->vertices == expected.polyhedron->vertices);
+      return "";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  const Polyhedron sphere = double_sphere(80);  // 12 640 triangles
+  Polyhedron folded = sphere;                   // facets that come to a vertex twice
+  for (const std::size_t f : {9001U, 3001U, 6001U}) folded.facets[f][2] = folded.facets[f][1];
+  Polyhedron crossed = sphere;  // vertices pulled through the opposite side
+  for (const std::size_t v : {5000U, 700U, 2900U}) {
+    Point3& p = crossed.vertices[v];
+    p = {Rational(-2 * p.x), Rational(-2 * p.y), Rational(-2 * p.z)};
+  }
+  for (const Polyhedron* polyhedron : {&sphere, &std::as_const(folded), &std::as_const(crossed)}) {
+    const std::string expected = told_of(*polyhedron, 1);
+    EXPECT_EQ(expected.empty(), polyhedron == &sphere) << expected;
+    for (const unsigned threads : {2U, 0U}) EXPECT_EQ(told_of(*polyhedron, threads), expected);
+  }
+  // The first facet that is degenerate is named.
+  EXPECT_NE(told_of(folded, 2).find("facet 3001"), std::string::npos) << told_of(folded, 2);
 }
 
 TEST(MakeMesh, LargeMeshIsFast) {

@@ -57,15 +57,16 @@ void add_partners(Surface& surface, const std::vector<std::array<FacetIndex, 2>>
   }
 }
 
-Surface checked(Polyhedron given) {
+Surface checked(Polyhedron given, unsigned threads) {
   Surface surface;
-  surface.polyhedron = std::make_shared<const Polyhedron>(with_distinct_vertices(std::move(given)));
+  surface.polyhedron =
+      std::make_shared<const Polyhedron>(with_distinct_vertices(std::move(given), threads));
   const Polyhedron& polyhedron = *surface.polyhedron;
   const PolyhedronSigns signs(polyhedron.vertices);
-  const std::vector<FacetFrame> frames = check_facets(polyhedron, signs);
-  const std::vector<HalfEdge> edges = half_edges(polyhedron);
+  const std::vector<FacetFrame> frames = check_facets(polyhedron, signs, threads);
+  const std::vector<HalfEdge> edges = half_edges(polyhedron, threads);
   check_closed(polyhedron, edges);
-  add_partners(surface, improper_pairs(polyhedron, signs, frames));
+  add_partners(surface, improper_pairs(polyhedron, signs, frames, threads));
   surface.part = manifold_parts(polyhedron, edges,
                                 [&](FacetIndex f) { return surface.partners_of(f).empty(); });
   return surface;
@@ -187,7 +188,7 @@ std::string_view name_of(FillRule rule) {
 
 Boundary filled_boundary(Polyhedron polyhedron, FillRule rule, const EvaluateOptions& options) {
   if (options.progress != nullptr) options.progress->begin("prepare", 0);
-  const Surface surface = checked(std::move(polyhedron));
+  const Surface surface = checked(std::move(polyhedron), options.threads);
   const Scene scene = scene_of(surface);
   if (options.progress != nullptr) options.progress->begin("fill", scene.facets.size());
   TierStatistics tiers;
@@ -202,7 +203,7 @@ Boundary filled_boundary(Polyhedron polyhedron, FillRule rule, const EvaluateOpt
 }
 
 bool is_boundary_of_solid(Polyhedron polyhedron, const EvaluateOptions& options) {
-  const Surface surface = checked(std::move(polyhedron));
+  const Surface surface = checked(std::move(polyhedron), options.threads);
   const Scene scene = scene_of(surface);
   return Filling(surface, scene, FillRule::Positive, options).is_simple();
 }

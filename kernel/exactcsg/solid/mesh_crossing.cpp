@@ -13,6 +13,8 @@
 #include <string>
 
 #include "exactcsg/solid/box_pairs.hpp"
+#include "exactcsg/solid/first_error.hpp"
+#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/polyhedron_check.hpp"
 #include "exactcsg/support/error.hpp"
 
@@ -287,10 +289,11 @@ class Pair {
 
 }  // namespace
 
-std::vector<DoubleBox> facet_boxes(const Polyhedron& polyhedron, const PolyhedronSigns& signs) {
-  std::vector<DoubleBox> boxes;
-  boxes.reserve(polyhedron.facets.size());
-  for (const Facet& facet : polyhedron.facets) {
+std::vector<DoubleBox> facet_boxes(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
+                                   unsigned threads) {
+  std::vector<DoubleBox> boxes(polyhedron.facets.size());
+  in_parallel_parts(threads, boxes.size(), [&](std::size_t f) {
+    const Facet& facet = polyhedron.facets[f];
     DoubleBox box{signs.approximate(facet.front()), signs.approximate(facet.front())};
     for (const Index v : facet) box = join(box, {signs.approximate(v), signs.approximate(v)});
     for (std::size_t i = 0; i < 3; ++i) {
@@ -298,52 +301,132 @@ std::vector<DoubleBox> facet_boxes(const Polyhedron& polyhedron, const Polyhedro
       box.lower[i] -= 2 * signs.coordinate_error();
       box.upper[i] += 2 * signs.coordinate_error();
     }
-    boxes.push_back(box);
-  }
+    boxes[f] = box;
+  });
   return boxes;
 }
 
 namespace {
 
+// What tells of most pairs of triangles by one or two products that they are proper: as
+// surely_apart, from a few numbers in a row for each facet.
+class Triangles {
+ public:
+  Triangles(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
+            const std::vector<FacetFrame>& frames, unsigned threads)
+      : signs_(signs), frames_(frames), corners_(frames.size()), planes_(frames.size()) {
+    in_parallel_parts(threads, frames.size(), [&](std::size_t f) {
+      const auto [a, b, c] = frames[f].corners;
+      planes_[f] = signs.near_plane(a, b, c);
+      const Facet& facet = polyhedron.facets[f];
+      if (facet.size() == 3) corners_[f] = {facet[0], facet[1], facet[2]};
+    });
+  }
+
+  const PolyhedronSigns::NearPlane& plane(Index facet) const { return planes_[facet]; }
+
+  // True only if both are triangles that meet in common vertices and edges only.
+  bool surely_proper(Index f, Index g) const {
+    const Corners& p = corners_[f];
+    const Corners& q = corners_[g];
+    if (p[0] == p[1] || q[0] == q[1]) return false;
+    unsigned common_p = 0;  // a bit for each corner
+    unsigned common_q = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+      for (unsigned j = 0; j < 3; ++j) {
+        const unsigned same = p[i] == q[j] ? 1 : 0;
+        common_p |= same << i;
+        common_q |= same << j;
+      }
+    }
+    if (common_p == all_corners) return false;
+    if (lies_off(q, common_q, planes_[f]) || lies_off(p, common_p, planes_[g])) return true;
+    return have_edge(common_p) && is_beyond_edge(f, common_p, q[lone_corner(common_q)]);
+  }
+
+ private:
+  using Corners = std::array<Index, 3>;  // all the same: not a triangle
+  static constexpr unsigned all_corners = 7;
+
+  static bool have_edge(unsigned common) { return (common & (common - 1)) != 0; }
+  // REQUIRES two bits
+  static unsigned lone_corner(unsigned common) { return (all_corners ^ common) >> 1U; }
+
+  bool lies_off(const Corners& corners, unsigned common,
+                const PolyhedronSigns::NearPlane& plane) const {
+    Sign side = Sign::Zero;
+    for (unsigned i = 0; i < 3; ++i) {
+      if ((common >> i & 1U) != 0) continue;
+      const Sign sign = signs_.certain_side(plane, corners[i]);
+      if (sign == Sign::Zero || sign == -side) return false;
+      side = sign;
+    }
+    return true;
+  }
+
+  // Whether the upright plane through the common edge has a triangle and a point on either side.
+  bool is_beyond_edge(Index f, unsigned common, Index point) const {
+    const Corners& corners = corners_[f];
+    const unsigned lone = lone_corner(common);
+    const Sign turn =
+        signs_.turn(frames_[f].dropped, corners[(lone + 1) % 3], corners[(lone + 2) % 3], point);
+    return turn * frames_[f].sign == Sign::Negative;
+  }
+
+  const PolyhedronSigns& signs_;
+  const std::vector<FacetFrame>& frames_;
+  std::vector<Corners> corners_;
+  std::vector<PolyhedronSigns::NearPlane> planes_;
+};
+
+// visit(search, f, g) for every pair of facets, the smaller number first, that is not proper, by
+// the number of the search that finds it. What a search throws first is thrown on.
 template <class Visit>
 void for_each_improper_pair(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
                             const std::vector<FacetFrame>& frames, const BoxHierarchy& hierarchy,
+                            std::span<const BoxHierarchy::Search> searches, unsigned threads,
                             Visit visit) {
-  std::vector<PolyhedronSigns::NearPlane> planes;
-  planes.reserve(frames.size());
-  for (const FacetFrame& frame : frames) {
-    const auto [a, b, c] = frame.corners;
-    planes.push_back(signs.near_plane(a, b, c));
-  }
-  Situation of_f;
-  Situation of_g;
-  hierarchy.for_each_pair([&](Index i, Index j) {
-    const auto [f, g] = std::minmax(i, j);
-    const CheckedFacet first{polyhedron.facets[f], frames[f], planes[f]};
-    const CheckedFacet second{polyhedron.facets[g], frames[g], planes[g]};
-    if (!Pair(signs, first, second, of_f, of_g).proper()) visit(f, g);
+  const Triangles triangles(polyhedron, signs, frames, threads);
+  in_parallel_to_first_error(threads, searches.size(), [&](std::size_t search) {
+    Situation of_f;
+    Situation of_g;
+    hierarchy.for_each_pair(searches[search], [&](Index i, Index j) {
+      if (triangles.surely_proper(i, j)) return;
+      const Index f = std::min(i, j);
+      const Index g = std::max(i, j);
+      const CheckedFacet first{polyhedron.facets[f], frames[f], triangles.plane(f)};
+      const CheckedFacet second{polyhedron.facets[g], frames[g], triangles.plane(g)};
+      if (!Pair(signs, first, second, of_f, of_g).proper()) visit(search, f, g);
+    });
   });
 }
 
 }  // namespace
 
 void check_crossings(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
-                     const std::vector<FacetFrame>& frames, const BoxHierarchy& hierarchy) {
-  for_each_improper_pair(polyhedron, signs, frames, hierarchy, [&](Index f, Index g) {
-    throw Error(ErrorId::SelfIntersectingMesh,
-                {describe_facet(polyhedron, f) + " and " + describe_facet(polyhedron, g),
-                 "facets that meet in common vertices and edges only"});
-  });
+                     const std::vector<FacetFrame>& frames, const BoxHierarchy& hierarchy,
+                     unsigned threads) {
+  for_each_improper_pair(
+      polyhedron, signs, frames, hierarchy, hierarchy.searches(), threads,
+      [&](std::size_t, Index f, Index g) {
+        throw Error(ErrorId::SelfIntersectingMesh,
+                    {describe_facet(polyhedron, f) + " and " + describe_facet(polyhedron, g),
+                     "facets that meet in common vertices and edges only"});
+      });
 }
 
 std::vector<std::array<std::uint32_t, 2>> improper_pairs(const Polyhedron& polyhedron,
                                                          const PolyhedronSigns& signs,
-                                                         const std::vector<FacetFrame>& frames) {
-  std::vector<std::array<Index, 2>> pairs;
-  const std::vector<DoubleBox> boxes = facet_boxes(polyhedron, signs);
-  for_each_improper_pair(polyhedron, signs, frames, BoxHierarchy(boxes), [&](Index f, Index g) {
-    pairs.push_back({f, g});
-  });
+                                                         const std::vector<FacetFrame>& frames,
+                                                         unsigned threads) {
+  const BoxHierarchy hierarchy(facet_boxes(polyhedron, signs, threads));
+  const std::vector<BoxHierarchy::Search> searches = hierarchy.searches();
+  std::vector<std::vector<std::array<Index, 2>>> found(searches.size());
+  for_each_improper_pair(polyhedron, signs, frames, hierarchy, searches, threads,
+                         [&](std::size_t search, Index f, Index g) {
+                           found[search].push_back({f, g});
+                         });
+  std::vector<std::array<Index, 2>> pairs = joined(threads, std::move(found));
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

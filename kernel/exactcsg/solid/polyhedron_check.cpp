@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/solid/first_error.hpp"
+#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -28,21 +30,26 @@ void require_known_vertices(const Polyhedron& polyhedron) {
 }
 
 // For every vertex the first one at the same place.
-std::vector<std::uint32_t> representatives(const std::vector<Point3>& points) {
+std::vector<std::uint32_t> representatives(const std::vector<Point3>& points, unsigned threads) {
   std::vector<std::array<double, 3>> rounded(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  in_parallel_parts(threads, points.size(), [&](std::size_t i) {
     rounded[i] = {nearest_double(points[i].x), nearest_double(points[i].y),
                   nearest_double(points[i].z)};
-  }
+  });
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0U);
   // Rounding is monotone, so equal points have equal doubles; only ties of all three doubles are
   // ordered exactly.
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    if (rounded[a] != rounded[b]) return rounded[a] < rounded[b];
-    const std::strong_ordering exact = compare(points[a], points[b]);
-    return exact != 0 ? exact < 0 : a < b;
-  });
+  const auto key = [&](std::uint32_t v) { return rounded[v][0]; };
+  const DoubleBuckets buckets(order, key, threads);
+  sort_in_buckets(
+      order, buckets.count(), [&](std::uint32_t v) { return buckets.of(key(v)); },
+      [&](std::uint32_t a, std::uint32_t b) {
+        if (rounded[a] != rounded[b]) return rounded[a] < rounded[b];
+        const std::strong_ordering exact = compare(points[a], points[b]);
+        return exact != 0 ? exact < 0 : a < b;
+      },
+      threads);
   std::vector<std::uint32_t> first(points.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
     const std::uint32_t v = order[k];
@@ -86,7 +93,10 @@ bool find_projection(const PolyhedronSigns& signs, FacetFrame& frame) {
 }
 
 void check_repeated_vertices(const Polyhedron& polyhedron, std::size_t f, Facet& scratch) {
-  scratch = polyhedron.facets[f];
+  const Facet& facet = polyhedron.facets[f];
+  const bool is_triangle = facet.size() == 3;
+  if (is_triangle && facet[0] != facet[1] && facet[1] != facet[2] && facet[2] != facet[0]) return;
+  scratch = facet;
   std::sort(scratch.begin(), scratch.end());
   const auto twice = std::adjacent_find(scratch.begin(), scratch.end());
   if (twice == scratch.end()) return;
@@ -184,9 +194,9 @@ std::string describe_facet(const Polyhedron& polyhedron, std::size_t facet) {
   return text;
 }
 
-Polyhedron with_distinct_vertices(Polyhedron polyhedron) {
+Polyhedron with_distinct_vertices(Polyhedron polyhedron, unsigned threads) {
   require_known_vertices(polyhedron);
-  const std::vector<std::uint32_t> first = representatives(polyhedron.vertices);
+  const std::vector<std::uint32_t> first = representatives(polyhedron.vertices, threads);
   std::vector<std::uint32_t> renamed(polyhedron.vertices.size(), unused);
   std::vector<std::uint32_t> kept;
   for (Facet& facet : polyhedron.facets) {
@@ -203,20 +213,23 @@ Polyhedron with_distinct_vertices(Polyhedron polyhedron) {
   return polyhedron;
 }
 
-std::vector<FacetFrame> check_facets(const Polyhedron& polyhedron, const PolyhedronSigns& signs) {
-  std::vector<FacetFrame> frames;
-  frames.reserve(polyhedron.facets.size());
-  Facet scratch;
-  for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
-    check_repeated_vertices(polyhedron, f, scratch);
-    frames.push_back(frame_of(polyhedron, signs, f));
-    check_planar(polyhedron, signs, f, frames.back());
-    check_convex(polyhedron, signs, f, frames.back());
-  }
+std::vector<FacetFrame> check_facets(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
+                                     unsigned threads) {
+  std::vector<FacetFrame> frames(polyhedron.facets.size());
+  const Parts parts(frames.size());
+  in_parallel_to_first_error(threads, parts.count(), [&](std::size_t part) {
+    Facet scratch;
+    for (std::size_t f = parts.begin(part); f < parts.end(part); ++f) {
+      check_repeated_vertices(polyhedron, f, scratch);
+      frames[f] = frame_of(polyhedron, signs, f);
+      check_planar(polyhedron, signs, f, frames[f]);
+      check_convex(polyhedron, signs, f, frames[f]);
+    }
+  });
   return frames;
 }
 
-std::vector<HalfEdge> half_edges(const Polyhedron& polyhedron) {
+std::vector<HalfEdge> half_edges(const Polyhedron& polyhedron, unsigned threads) {
   std::vector<HalfEdge> edges;
   std::size_t count = 0;
   for (const Facet& facet : polyhedron.facets) count += facet.size();
@@ -233,7 +246,8 @@ std::vector<HalfEdge> half_edges(const Polyhedron& polyhedron) {
       edges, polyhedron.vertices.size(), [](const HalfEdge& edge) { return edge.low; },
       [](const HalfEdge& a, const HalfEdge& b) {
         return std::tie(a.high, a.facet) < std::tie(b.high, b.facet);
-      });
+      },
+      threads);
   return edges;
 }
 

@@ -3,6 +3,8 @@
 
 // The parts of the checks of primitive.hpp, each a function of its own. All refuse by throwing
 // Error with the numbers and coordinates of the facets to blame. [Exact]
+//
+// LAW check.1  no result, and no error, depends on the number of threads (as in EvaluateOptions).
 
 #include <array>
 #include <cstdint>
@@ -24,7 +26,7 @@ std::string describe_facet(const Polyhedron& polyhedron, std::size_t facet);
 // Gives equal points one index and drops points that no facet uses. Keeps the order of facets and,
 // of the first uses, that of vertices.
 // THROWS Error(UnknownVertex)
-Polyhedron with_distinct_vertices(Polyhedron polyhedron);
+Polyhedron with_distinct_vertices(Polyhedron polyhedron, unsigned threads = 1);
 
 // Three vertices of a facet that span its plane, counter-clockwise from outside, and a coordinate
 // along which the facet can be projected: its turns then have the sign given.
@@ -35,7 +37,8 @@ struct FacetFrame {
 };
 
 // THROWS Error(DegenerateFacet | NonPlanarFacet | NonConvexFacet)
-std::vector<FacetFrame> check_facets(const Polyhedron& polyhedron, const PolyhedronSigns& signs);
+std::vector<FacetFrame> check_facets(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
+                                     unsigned threads = 1);
 
 // The two directed edges of a facet's side and of its neighbour's.
 struct HalfEdge {
@@ -45,7 +48,7 @@ struct HalfEdge {
   bool ascending = true;  // walked from low to high
 };
 // Sorted by (low, high). COST: O(n log n)
-std::vector<HalfEdge> half_edges(const Polyhedron& polyhedron);
+std::vector<HalfEdge> half_edges(const Polyhedron& polyhedron, unsigned threads = 1);
 
 // THROWS Error(OpenMesh) unless every edge is walked as often up as down.
 void check_closed(const Polyhedron& polyhedron, const std::vector<HalfEdge>& edges);
@@ -54,14 +57,16 @@ void check_closed(const Polyhedron& polyhedron, const std::vector<HalfEdge>& edg
 std::vector<std::array<std::uint32_t, 3>> triangles_of(const Polyhedron& polyhedron);
 
 // Boxes that hold the facets.
-std::vector<DoubleBox> facet_boxes(const Polyhedron& polyhedron, const PolyhedronSigns& signs);
+std::vector<DoubleBox> facet_boxes(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
+                                   unsigned threads = 1);
 
 // Two facets meet in nothing but common vertices and common edges, and the winding number is 0 in
 // front of every facet and 1 behind it.
 // REQUIRES the hierarchy of facet_boxes
 // THROWS Error(SelfIntersectingMesh | InvertedMesh)
 void check_crossings(const Polyhedron& polyhedron, const PolyhedronSigns& signs,
-                     const std::vector<FacetFrame>& frames, const BoxHierarchy& hierarchy);
+                     const std::vector<FacetFrame>& frames, const BoxHierarchy& hierarchy,
+                     unsigned threads = 1);
 void check_winding(const Polyhedron& polyhedron, PolyhedronSigns& signs,
                    const std::vector<FacetFrame>& frames, const std::vector<HalfEdge>& edges,
                    const BoxHierarchy& hierarchy);
@@ -70,7 +75,8 @@ void check_winding(const Polyhedron& polyhedron, PolyhedronSigns& signs,
 // and common edges. Sorted.
 std::vector<std::array<std::uint32_t, 2>> improper_pairs(const Polyhedron& polyhedron,
                                                          const PolyhedronSigns& signs,
-                                                         const std::vector<FacetFrame>& frames);
+                                                         const std::vector<FacetFrame>& frames,
+                                                         unsigned threads = 1);
 
 // For every facet a number of the part it is connected to through edges that two facets alone have,
 // the number of a facet of that part. Facets for which `usable` is false are parts of their own.

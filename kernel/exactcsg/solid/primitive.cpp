@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exactcsg/solid/polyhedron_check.hpp"
+#include "exactcsg/solid/primitive_in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -49,16 +50,17 @@ ConvexPolytope make_box(const Point3& lower, const Point3& upper) {
   return make_convex_polytope_unchecked(std::move(box));
 }
 
-PolyhedralMesh make_mesh(Polyhedron polyhedron) {
-  polyhedron = with_distinct_vertices(std::move(polyhedron));
+PolyhedralMesh make_mesh(Polyhedron polyhedron) { return make_mesh(std::move(polyhedron), 1); }
+
+PolyhedralMesh make_mesh(Polyhedron polyhedron, unsigned threads) {
+  polyhedron = with_distinct_vertices(std::move(polyhedron), threads);
   PolyhedronSigns signs(polyhedron.vertices);
-  const std::vector<FacetFrame> frames = check_facets(polyhedron, signs);
-  const std::vector<HalfEdge> edges = half_edges(polyhedron);
+  const std::vector<FacetFrame> frames = check_facets(polyhedron, signs, threads);
+  const std::vector<HalfEdge> edges = half_edges(polyhedron, threads);
   check_closed(polyhedron, edges);
   require_outward(polyhedron, signs);
-  const std::vector<DoubleBox> boxes = facet_boxes(polyhedron, signs);
-  const BoxHierarchy hierarchy(boxes);
-  check_crossings(polyhedron, signs, frames, hierarchy);
+  const BoxHierarchy hierarchy(facet_boxes(polyhedron, signs, threads));
+  check_crossings(polyhedron, signs, frames, hierarchy, threads);
   check_winding(polyhedron, signs, frames, edges, hierarchy);
   return share_mesh(std::move(polyhedron));
 }

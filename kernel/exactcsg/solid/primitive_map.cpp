@@ -4,7 +4,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "exactcsg/solid/primitive.hpp"
+#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/solid/primitive_in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
@@ -31,23 +32,29 @@ Rational map_coordinate(const std::array<Rational, 4>& row, const Point3& p) {
 }
 
 std::shared_ptr<const Polyhedron> map_polyhedron(const AffineMap& map, bool mirrors,
-                                                 const Polyhedron& polyhedron) {
+                                                 const Polyhedron& polyhedron, unsigned threads) {
   auto image = std::make_shared<Polyhedron>();
-  image->vertices.reserve(polyhedron.vertices.size());
-  for (const Point3& p : polyhedron.vertices) {
-    image->vertices.push_back(
-        {map_coordinate(map.m[0], p), map_coordinate(map.m[1], p), map_coordinate(map.m[2], p)});
-  }
-  image->facets = polyhedron.facets;
-  if (mirrors) {
-    for (Facet& facet : image->facets) std::reverse(facet.begin(), facet.end());
-  }
+  image->vertices.resize(polyhedron.vertices.size());
+  in_parallel_parts(threads, image->vertices.size(), [&](std::size_t v) {
+    const Point3& p = polyhedron.vertices[v];
+    image->vertices[v] = {map_coordinate(map.m[0], p), map_coordinate(map.m[1], p),
+                          map_coordinate(map.m[2], p)};
+  });
+  image->facets.resize(polyhedron.facets.size());
+  in_parallel_parts(threads, image->facets.size(), [&](std::size_t f) {
+    image->facets[f] = polyhedron.facets[f];
+    if (mirrors) std::reverse(image->facets[f].begin(), image->facets[f].end());
+  });
   return image;
 }
 
 }  // namespace
 
 Primitive apply(const AffineMap& map, const Primitive& primitive) {
+  return apply(map, primitive, 1);
+}
+
+Primitive apply(const AffineMap& map, const Primitive& primitive, unsigned threads) {
   const Sign sign = sign_of(determinant(map));
   if (sign == Sign::Zero) {
     throw Error(ErrorId::SingularMap, {"a matrix of determinant 0", "an invertible matrix"});
@@ -59,7 +66,7 @@ Primitive apply(const AffineMap& map, const Primitive& primitive) {
         if constexpr (std::is_same_v<Shape, HalfSpace>) {
           return HalfSpace{apply(map, original.plane)};
         } else {
-          return Shape{map_polyhedron(map, sign == Sign::Negative, *original.polyhedron)};
+          return Shape{map_polyhedron(map, sign == Sign::Negative, *original.polyhedron, threads)};
         }
       },
       primitive.shape);

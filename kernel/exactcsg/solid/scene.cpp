@@ -135,7 +135,7 @@ void list_corners(Kind& kind) {
 // corner where it begins.
 // THROWS Error(InternalError) if there is none.
 // COST: O(n) if few sides leave a vertex, else O(n log n)
-std::vector<std::uint32_t> opposite_sides(const Kind& kind) {
+std::vector<std::uint32_t> opposite_sides(const Kind& kind, unsigned threads) {
   struct Leaving {
     std::uint32_t to;
     std::uint32_t side;
@@ -168,7 +168,7 @@ std::vector<std::uint32_t> opposite_sides(const Kind& kind) {
     if (row.size() > short_row) std::sort(row.begin(), row.end(), comes_before);
   }
   std::vector<std::uint32_t> result(count);
-  for (std::uint32_t side = 0; side < count; ++side) {
+  in_parallel_parts(threads, count, [&](std::size_t side) {
     const std::uint32_t back_to = kind.corners[side];
     const auto row = sides_from(ends[side]);
     const auto found =
@@ -180,7 +180,7 @@ std::vector<std::uint32_t> opposite_sides(const Kind& kind) {
       throw Error(ErrorId::InternalError, {"a primitive that is not closed", "a closed one"});
     }
     result[side] = found->side;
-  }
+  });
   return result;
 }
 
@@ -217,7 +217,7 @@ class MeshPlanes {
         known_(known),
         threads_(threads),
         polyhedron_(*kind.first),
-        opposite_(opposite_sides(kind)),
+        opposite_(opposite_sides(kind, threads)),
         facets_(facets_of_sides(kind)) {}
 
   void find() {
@@ -244,14 +244,13 @@ class MeshPlanes {
       const auto i = static_cast<std::uint32_t>(side);
       is_flat_[side] = was_seen_from_there(i) ? 0 : may_be_flat(i);
     });
-    std::optional<PolyhedronSigns> signs;
+    if (std::ranges::find(is_flat_, 1) == is_flat_.end()) return;
+    const PolyhedronSigns signs(polyhedron_.vertices);
+    in_parallel_parts(threads_, is_flat_.size(), [&](std::size_t side) {
+      if (is_flat_[side] != 0) is_flat_[side] = is_flat(static_cast<std::uint32_t>(side), signs);
+    });
     for (std::uint32_t side = 0; side < is_flat_.size(); ++side) {
-      if (was_seen_from_there(side)) {
-        is_flat_[side] = is_flat_[opposite_[side]];
-      } else if (is_flat_[side] != 0) {
-        if (!signs) signs.emplace(polyhedron_.vertices);
-        is_flat_[side] = is_flat(side, *signs);
-      }
+      if (was_seen_from_there(side)) is_flat_[side] = is_flat_[opposite_[side]];
     }
   }
 
@@ -315,13 +314,16 @@ class MeshPlanes {
 
   void set_side_planes() {
     kind_.side_planes.resize(kind_.corners.size());
+    in_parallel_parts(threads_, kind_.side_planes.size(), [&](std::size_t i) {
+      const auto side = static_cast<std::uint32_t>(i);
+      if (is_flat_[side] == 0) kind_.side_planes[side] = kind_.facet_planes[neighbour(side)];
+    });
     for (std::uint32_t side = 0; side < kind_.side_planes.size(); ++side) {
-      kind_.side_planes[side] = plane_of_side(side);
+      if (is_flat_[side] != 0) kind_.side_planes[side] = plane_across(side);
     }
   }
 
-  std::uint32_t plane_of_side(std::uint32_t side) {
-    if (is_flat_[side] == 0) return kind_.facet_planes[neighbour(side)];
+  std::uint32_t plane_across(std::uint32_t side) {
     if (was_seen_from_there(side)) return kind_.side_planes[opposite_[side]];
     const std::uint32_t facet = facets_[side];
     const std::uint32_t from = kind_.corners[side];
@@ -356,7 +358,7 @@ void complete(Kind& kind, PreparedPolyhedron& known, unsigned threads) {
   }
   // Neighbours of a convex polytope are not coplanar.
   const std::vector<std::uint32_t> facets = facets_of_sides(kind);
-  kind.side_planes = opposite_sides(kind);
+  kind.side_planes = opposite_sides(kind, threads);
   for (std::uint32_t& side : kind.side_planes) side = facets[side];
 }
 
