@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -308,6 +309,61 @@ TEST_P(PredicateCases, AgreeWithRationalArithmetic) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, PredicateCases, ::testing::Range<std::size_t>(0, kinds().size()));
+
+// Halves of quads whose corners are rounded to doubles: their planes are nearly one, and points of
+// the one, on either side of the common edge and next to it, are asked for the side of the other.
+TEST(Side, AcrossTheEdgeOfNearlyCoplanarFacets) {
+  TierStatistics statistics;
+  std::array<int, 3> counts{};
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const double slope_x = uniform(random, -1, 1);
+    const double slope_y = uniform(random, -1, 1);
+    const auto on_slope = [&](double x, double y) -> Point3 {
+      return {rational_of(x), rational_of(y), rational_of(0.7 + slope_x * x + slope_y * y)};
+    };
+    const auto somewhere = [&]() -> Point3 {
+      return {rational_of(uniform(random, -2, 2)), rational_of(uniform(random, -2, 2)),
+              rational_of(uniform(random, -2, 2))};
+    };
+    const std::array<Point3, 4> corners{
+        on_slope(-1, uniform(random, -0.1, 0.1)), on_slope(1, uniform(random, -0.1, 0.1)),
+        on_slope(uniform(random, -1, 1), uniform(random, 0.5, 2)),
+        on_slope(uniform(random, -1, 1), uniform(random, -2, -0.5))};
+    // A cutting plane through a point of the edge makes points next to it.
+    const bool is_near = integer(random, 0, 3) == 0;
+    const Rational share(integer(random, 1, 99), 100);
+    const Point3 on_edge = corners[0] + share * (corners[1] - corners[0]);
+    const std::array<Point3, 6> others{is_near ? on_edge : somewhere(), somewhere(), somewhere(),
+                                       is_near ? on_edge : somewhere(), somewhere(), somewhere()};
+    Geometry::Builder builder;
+    std::vector<PointId> ids;
+    for (const Point3& p : corners) ids.push_back(builder.add_point(p));
+    for (const Point3& p : others) ids.push_back(builder.add_point(p));
+    const std::array<std::array<std::size_t, 3>, 4> triples{
+        {{0, 1, 2}, {1, 0, 3}, {4, 5, 6}, {7, 8, 9}}};
+    std::vector<reference::RationalPlane> expected;
+    const auto point = [&](std::size_t i) { return i < 4 ? corners[i] : others[i - 4]; };
+    for (const auto& [a, b, c] : triples) {
+      builder.add_plane(ids[a], ids[b], ids[c]);
+      expected.push_back(reference::plane_through(point(a), point(b), point(c)));
+    }
+    if (reference::determinant(expected[0], expected[2], expected[3]) == 0) continue;
+    const Geometry geometry = std::move(builder).build();
+    const auto plane = [&](std::uint32_t i) { return geometry.plane(i).plane; };
+    const Vertex met = geometry.meet(plane(0), plane(2), plane(3));
+    const Point3 exact = reference::meeting_point(expected[0], expected[2], expected[3]);
+    const Sign value = sign(reference::value_at(expected[1], exact));
+    ASSERT_EQ(geometry.side(met, plane(1), statistics) *
+                  sign_of(static_cast<int>(geometry.plane(1).sense)),
+              value);
+    ++counts[static_cast<std::size_t>(static_cast<int>(value) + 1)];
+  }
+  EXPECT_GT(counts[0], 500);
+  EXPECT_GT(counts[1], 200);
+  EXPECT_GT(counts[2], 500);
+}
 
 }  // namespace
 }  // namespace exactcsg

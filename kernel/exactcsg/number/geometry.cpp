@@ -12,14 +12,6 @@
 
 namespace exactcsg {
 
-namespace {
-
-struct PointPair {
-  PointId first;
-  PointId second;
-};
-
-// Two input points on both planes, if that is known: the ends of an edge that facets share.
 std::optional<PointPair> common_points(const Geometry::Data& data, PlaneRef p, PlaneRef q) {
   if (p.is_wall() || q.is_wall()) return std::nullopt;
   auto points = data.points_of_planes.row(p.table_index());
@@ -41,8 +33,6 @@ std::optional<PointPair> common_points(const Geometry::Data& data, PlaneRef p, P
   }
   return std::nullopt;
 }
-
-}  // namespace
 
 Geometry::Geometry(std::unique_ptr<Data> data)
     : data_(std::move(data)),

@@ -4,6 +4,7 @@
 // What a Geometry owns. Private to number/.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,5 +55,13 @@ struct Geometry::Data {
     return {operand(v.planes[0]), operand(v.planes[1]), operand(v.planes[2])};
   }
 };
+
+struct PointPair {
+  PointId first;
+  PointId second;
+};
+
+// Two input points on both planes, if that is known: the ends of an edge that facets share.
+std::optional<PointPair> common_points(const Geometry::Data& data, PlaneRef p, PlaneRef q);
 
 }  // namespace exactcsg

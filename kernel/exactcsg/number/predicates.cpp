@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "exactcsg/number/geometry_data.hpp"
 #include "exactcsg/number/meet.hpp"
@@ -174,6 +176,58 @@ Decision exact_compare(const VertexOperand& v, const VertexOperand& w, Axis axis
   });
 }
 
+// --- Planes that facets with a common edge lie in
+// --------------------------------------------------
+
+// Which side of the line through two points of a plane another point of that plane is on, along an
+// arbitrary direction; Zero: the doubles cannot tell.
+Sign side_of_line(const ApproximatePoint& from, const ApproximatePoint& to,
+                  const ApproximatePlane& plane, const ApproximatePoint& point) {
+  const double ux = to.x - from.x, uy = to.y - from.y, uz = to.z - from.z;
+  const double wx = point.x - from.x, wy = point.y - from.y, wz = point.z - from.z;
+  const double u = std::max({std::fabs(ux), std::fabs(uy), std::fabs(uz)});
+  const double w = std::max({std::fabs(wx), std::fabs(wy), std::fabs(wz)});
+  const double value =
+      plane.a * (uy * wz - uz * wy) + plane.b * (uz * wx - ux * wz) + plane.c * (ux * wy - uy * wx);
+  // With r = 2^-52, entries of u are off by at most e, those of w by at most f. The normal counts
+  // as it is, at most 1 along each axis: any direction out of the plane would do, and one in it
+  // would make the determinant nothing. So six products are off by at most u f + w e + e f each;
+  // their roundings by less than 15 r u w in all.
+  const double e = from.error + to.error + 0x1p-52 * u;
+  const double f = from.error + point.error + 0x1p-52 * w;
+  const double bound =
+      8 * (u * f + w * e + e * f) + 0x1p-46 * u * w + std::numeric_limits<double>::min();
+  return value > bound ? Sign::Positive : value < -bound ? Sign::Negative : Sign::Zero;
+}
+
+// A meeting point on a plane that has a known edge in common with the one asked for: in its plane
+// it lies on the same side of the edge as some input point, or on the other side. So the planes
+// need not be met exactly where they are nearly one.
+std::optional<Decision> side_across_edge(const Data& data, const Vertex& v, PlaneRef plane) {
+  const ApproximatePoint position{v.x, v.y, v.z, v.error};
+  for (const PlaneRef own : v.planes) {
+    const std::optional<PointPair> edge = common_points(data, own, plane);
+    if (!edge) continue;
+    const ApproximatePlane& near = data.planes.approximate()[own.table_index()];
+    const ApproximatePoint& from = data.points.approximate(edge->first);
+    const ApproximatePoint& to = data.points.approximate(edge->second);
+    const Sign side = side_of_line(from, to, near, position);
+    if (side == Sign::Zero) continue;
+    constexpr std::size_t some = 16;
+    const auto candidates = data.points_of_planes.row(own.table_index());
+    for (const std::uint32_t candidate : candidates.first(std::min(some, candidates.size()))) {
+      const PointId point{candidate};
+      const Sign other = side_of_line(from, to, near, data.points.approximate(point));
+      if (other == Sign::Zero) continue;
+      const Decision decision =
+          exact_side(VertexOperand(data, vertex_of(point, data.points.approximate(point))),
+                     data.operand(plane));
+      return Decision{decision.sign * other * side, decision.tier};
+    }
+  }
+  return std::nullopt;
+}
+
 // --- The tiers in turn
 // -----------------------------------------------------------------------------
 
@@ -190,6 +244,9 @@ Decision side_without_filter(const Data& data, const Vertex& meeting, PlaneRef p
       const ApproximatePlane& p = data.planes.approximate()[plane.table_index()];
       return {p.a + p.b + p.c > 0 ? above : -above, Tier::Double};
     }
+  }
+  if (!v.is_point) {
+    if (const auto decision = side_across_edge(data, v, plane)) return *decision;
   }
   return exact_side(VertexOperand(data, v), data.operand(plane));
 }
