@@ -199,7 +199,10 @@ void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, SingleFac
   std::vector<std::vector<BoundaryFace>> faces_of_parts(linked.count());
   // How many planes begin in each part, then before it.
   std::vector<std::uint32_t> planes(linked.count() + 1, 0);
+  // Whether a part begins with a new plane: not to be asked later, when the part before is sorted.
+  std::vector<unsigned char> begins_plane(linked.count());
   in_parallel(threads, linked, [&](std::size_t part, std::size_t part_begin, std::size_t part_end) {
+    begins_plane[part] = is_new_plane(part_begin) ? 1 : 0;
     std::uint32_t begun = 0;
     for (std::size_t i = part_begin; i < part_end; ++i) begun += is_new_plane(i) ? 1 : 0;
     planes[part + 1] = begun;
@@ -210,7 +213,8 @@ void link_faces(const Geometry& geometry, std::vector<FaceEdge> edges, SingleFac
     for (std::size_t begin = part_begin; begin < part_end;) {
       std::size_t end = begin + 1;
       while (end < part_end && !is_new_face(end)) ++end;
-      if (is_new_plane(begin)) ++begun;
+      const bool is_new = begin == part_begin ? begins_plane[part] != 0 : is_new_plane(begin);
+      if (is_new) ++begun;
       LoopLinker linker(geometry, boundary.vertices, std::span(edges).subspan(begin, end - begin));
       faces_of_parts[part].push_back({begun - 1, linker.link()});
       begin = end;
