@@ -111,16 +111,13 @@ std::vector<EdgeContact> edge_contacts(const Geometry& geometry, std::span<const
   const ContactSearch contact_search(geometry, vertices, spans);
   const std::vector<BoxHierarchy::Search> searches = grouped.hierarchy().searches();
   std::vector<std::vector<EdgeContact>> contacts(searches.size());
-  std::vector<TierStatistics> tiers(searches.size());
-  in_parallel(threads, searches.size(), [&](std::size_t search) {
-    if (progress != nullptr) progress->check();
-    TierStatistics tiers_here;
-    grouped.hierarchy().for_each_pair(searches[search], [&](std::uint32_t i, std::uint32_t j) {
-      contact_search.add_contact(i, j, contacts[search], tiers_here);
-    });
-    tiers[search] = tiers_here;
-  });
-  for (const TierStatistics& part : tiers) statistics += part;
+  in_parallel_counting(
+      threads, searches.size(), statistics, [&](std::size_t search, TierStatistics& tiers) {
+        if (progress != nullptr) progress->check();
+        grouped.hierarchy().for_each_pair(searches[search], [&](std::uint32_t i, std::uint32_t j) {
+          contact_search.add_contact(i, j, contacts[search], tiers);
+        });
+      });
   return joined(threads, std::move(contacts));
 }
 

@@ -111,21 +111,20 @@ class Filling {
     constexpr std::size_t facets_per_round = 64;
     const std::size_t rounds = scene_.facets.size() / facets_per_round + 1;
     std::vector<PieceBuffer> buffers(rounds + 1);
-    std::vector<TierStatistics> counted(rounds);
     PieceCollector untouched;
     add_untouched(untouched, statistics);
     buffers[rounds] = untouched.take();
-    in_parallel(options_.threads, rounds, [&](std::size_t round) {
-      PieceCollector touched;
-      const std::size_t end = std::min(scene_.facets.size(), (round + 1) * facets_per_round);
-      for (std::size_t f = round * facets_per_round; f < end; ++f) {
-        if (options_.progress != nullptr) options_.progress->check();
-        add_touched(static_cast<FacetIndex>(f), touched, counted[round]);
-      }
-      buffers[round] = touched.take();
-      if (options_.progress != nullptr) options_.progress->advance(facets_per_round);
-    });
-    for (const TierStatistics& tiers : counted) statistics += tiers;
+    in_parallel_counting(
+        options_.threads, rounds, statistics, [&](std::size_t round, TierStatistics& tiers) {
+          PieceCollector touched;
+          const std::size_t end = std::min(scene_.facets.size(), (round + 1) * facets_per_round);
+          for (std::size_t f = round * facets_per_round; f < end; ++f) {
+            if (options_.progress != nullptr) options_.progress->check();
+            add_touched(static_cast<FacetIndex>(f), touched, tiers);
+          }
+          buffers[round] = touched.take();
+          if (options_.progress != nullptr) options_.progress->advance(facets_per_round);
+        });
     return buffers;
   }
 

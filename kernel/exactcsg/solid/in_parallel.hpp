@@ -100,18 +100,27 @@ void in_parallel(unsigned threads, const Parts& parts, const Visit& visit) {
               [&](std::size_t part) { visit(part, parts.begin(part), parts.end(part)); });
 }
 
-// visit(part, begin, end, tiers) for every part; what it counts in `tiers` is added to
-// `statistics`.
+// round(i, tiers) for every i below count; what it counts in `tiers` is added to `statistics`.
+template <class Round>
+void in_parallel_counting(unsigned threads, std::size_t count, TierStatistics& statistics,
+                          const Round& round) {
+  std::vector<TierStatistics> counted(count);
+  in_parallel(threads, count, [&](std::size_t i) {
+    TierStatistics tiers;  // of its own, since neighbours in a vector share lines of the cache
+    round(i, tiers);
+    counted[i] = tiers;
+  });
+  for (const TierStatistics& tiers : counted) statistics += tiers;
+}
+
+// visit(part, begin, end, tiers) for every part, likewise.
 template <class Visit>
 void in_parallel_counting(unsigned threads, const Parts& parts, TierStatistics& statistics,
                           const Visit& visit) {
-  std::vector<TierStatistics> counted(parts.count());
-  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-    TierStatistics tiers;  // of its own, since neighbours in a vector share lines of the cache
-    visit(part, begin, end, tiers);
-    counted[part] = tiers;
-  });
-  for (const TierStatistics& tiers : counted) statistics += tiers;
+  in_parallel_counting(threads, parts.count(), statistics,
+                       [&](std::size_t part, TierStatistics& tiers) {
+                         visit(part, parts.begin(part), parts.end(part), tiers);
+                       });
 }
 
 // round(i) for every i below count, many of which are done at once: for short rounds.
