@@ -65,7 +65,8 @@ class Segments {
     std::vector<PointId> ids;
     for (const Point3& p : points_) ids.push_back(builder.add_point(p));
     geometry_.emplace(std::move(builder).build());
-    for (const PointId id : ids) vertices_.push_back(geometry_->vertex(id));
+    vertices_.emplace(*geometry_);
+    for (const PointId id : ids) vertices_->push_back(geometry_->vertex(id));
     for (std::size_t i = 0; i < spans_.size(); ++i) {
       spans_[i].planes = {geometry_->plane(added_[i][0]).plane,
                           geometry_->plane(added_[i][1]).plane};
@@ -74,7 +75,7 @@ class Segments {
 
   std::vector<EdgeContact> contacts(unsigned threads) const {
     TierStatistics statistics;
-    return edge_contacts(*geometry_, vertices_, spans_, statistics, threads, nullptr);
+    return edge_contacts(*geometry_, *vertices_, spans_, statistics, threads, nullptr);
   }
 
   using Pair = std::array<std::uint32_t, 2>;
@@ -94,7 +95,7 @@ class Segments {
   }
 
   Point3 position(const Vertex& vertex) const { return geometry_->exact_point(vertex); }
-  const std::vector<Vertex>& vertices() const { return vertices_; }
+  const VertexRow& vertices() const { return *vertices_; }
   const Geometry& geometry() const { return *geometry_; }
   const Point3& point(std::uint32_t number) const { return points_[number]; }
   bool is_end(std::uint32_t span, const Point3& point) const {
@@ -114,7 +115,7 @@ class Segments {
   std::vector<EdgeSpan> spans_;
   std::vector<Point3> points_;  // by vertex number
   std::optional<Geometry> geometry_;
-  std::vector<Vertex> vertices_;
+  std::optional<VertexRow> vertices_;
 };
 
 TEST(EdgeContacts, AreThePointsThatSegmentsHaveInCommon) {
@@ -158,7 +159,7 @@ TEST(EdgeContacts, DoNotDependOnThreads) {
 TEST(VertexFinder, FindsTheSameVertexForEqualPositions) {
   std::mt19937 random(5);
   const Segments segments(random, 60);
-  std::vector<Vertex> middles;
+  VertexRow middles(segments.geometry());
   for (const EdgeContact& contact : segments.contacts(1)) {
     if (!contact.end) middles.push_back(contact.point);
   }
@@ -167,7 +168,8 @@ TEST(VertexFinder, FindsTheSameVertexForEqualPositions) {
   const VertexFinder equals(segments.geometry(), middles);
   const VertexFinder ends(segments.geometry(), segments.vertices());
   std::map<std::array<Rational, 3>, std::uint32_t> first;
-  for (const Vertex& middle : middles) {
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const Vertex middle = middles[i];
     const Point3 position = segments.position(middle);
     const auto found = equals.find(middle, middles, statistics);
     ASSERT_TRUE(found);
@@ -175,8 +177,10 @@ TEST(VertexFinder, FindsTheSameVertexForEqualPositions) {
     EXPECT_EQ(first.emplace(std::array{position.x, position.y, position.z}, *found).first->second,
               *found);
     const auto end = ends.find(middle, segments.vertices(), statistics);
-    const bool is_known = std::ranges::any_of(
-        segments.vertices(), [&](const Vertex& v) { return segments.position(v) == position; });
+    bool is_known = false;
+    for (std::size_t v = 0; v < segments.vertices().size(); ++v) {
+      is_known = is_known || segments.position(segments.vertices()[v]) == position;
+    }
     ASSERT_EQ(end.has_value(), is_known);
     if (end) {
       EXPECT_EQ(segments.point(*end), position);

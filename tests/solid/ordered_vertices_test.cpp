@@ -36,7 +36,7 @@ TEST(OrderedVertices, AreThoseThatAreWantedInLexicographicOrder) {
   std::vector<PointId> ids;
   for (const Point3& point : points) ids.push_back(builder.add_point(point));
   const Geometry geometry = std::move(builder).build();
-  std::vector<Vertex> vertices;
+  VertexRow vertices(geometry);
   std::vector<unsigned char> is_wanted;
   std::vector<Point3> expected;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -24,6 +24,7 @@
 #include "exactcsg/solid/piece_row.hpp"
 #include "exactcsg/solid/settled_facets.hpp"
 #include "exactcsg/solid/vertex_interning.hpp"
+#include "exactcsg/solid/vertex_row.hpp"
 #include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {
@@ -63,16 +64,15 @@ struct LineContent {
   std::uint32_t station_count = 0;
 };
 
-// An edge between two settled facets. It is no part of a numbered line: no other piece lies in the
-// plane of either.
-struct SettledEdge {
+// An edge between two settled facets that other edges may touch. It is no part of a numbered line:
+// no other piece lies in the plane of either.
+struct TouchableEdge {
   std::uint32_t first;  // planes of the table, the lower one first
   std::uint32_t second;
   VertexNumber from;
   VertexNumber to;  // from < to
   std::uint32_t
       primitive;  // of which it is a whole edge, if nothing else of it touches that; or none
-  bool may_be_touched;
 };
 
 // The only piece in its plane.
@@ -111,6 +111,7 @@ class Merger {
         threads_(threads),
         progress_(progress),
         settled_(settled_facets(scene, buffers, threads)),
+        vertices_(geometry_),
         faces_(PieceRow(buffers).size()) {
     number_vertices(std::move(buffers));
   }
@@ -159,10 +160,10 @@ class Merger {
   // Where the next piece makes its entries.
   struct PiecePlaces {
     PieceCounts next;
-    std::vector<SettledEdge>& settled_edges;
+    std::vector<TouchableEdge>& touchable_edges;
   };
 
-  // Sets vertices_, edges_, settled_edges_, settled_faces_, settled_sides_, and of pieces
+  // Sets vertices_, edges_, touchable_edges_, settled_faces_, settled_sides_, and of pieces
   // primitive_of_piece_ and in_general_position_.
   void number_vertices(std::vector<PieceBuffer> buffers) {
     const PieceRow pieces(buffers);
@@ -176,10 +177,10 @@ class Merger {
     resize(threads_, settled_sides_, firsts.back().settled_sides);
     resize(threads_, primitive_of_piece_, pieces.size());
     resize(threads_, in_general_position_, pieces.size());
-    std::vector<std::vector<SettledEdge>> settled_edges(parts.count());
+    std::vector<std::vector<TouchableEdge>> touchable_edges(parts.count());
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       check();
-      PiecePlaces places{firsts[part], settled_edges[part]};
+      PiecePlaces places{firsts[part], touchable_edges[part]};
       NumberedCorners corners;
       pieces.for_each(begin, end,
                       [&](const PieceBuffer& buffer, std::size_t first_meeting_point,
@@ -197,7 +198,7 @@ class Merger {
                         if (piece.is_hole) faces_.unite(number - 1, number);
                       });
     });
-    settled_edges_ = joined(threads_, std::move(settled_edges));
+    touchable_edges_ = joined(threads_, std::move(touchable_edges));
     statistics_pieces_ = pieces.size();
   }
 
@@ -340,13 +341,13 @@ class Merger {
       const VertexNumber to = corners.next(i);
       if (from == to) broken("a piece of boundary with two equal corners");
       // The facet on the other side walks it from `to` to `from`.
-      if (from > to) continue;
-      const bool may_be_touched = !settled_.is_in_general_position(piece.plane.plane) &&
-                                  !settled_.is_in_general_position(side_plane);
+      if (from > to || settled_.is_in_general_position(piece.plane.plane) ||
+          settled_.is_in_general_position(side_plane)) {
+        continue;
+      }
       const auto [first, second] =
           std::minmax({piece.plane.plane.table_index(), side_plane.table_index()});
-      places.settled_edges.push_back(
-          {first, second, from, to, whole_primitive_of(piece), may_be_touched});
+      places.touchable_edges.push_back({first, second, from, to, whole_primitive_of(piece)});
     }
     if (piece.corner_sense != piece.plane.sense) {
       // Corners and the sides between them, backwards from the same corner.
@@ -461,10 +462,21 @@ class Merger {
 
   // The facets on both sides have edges of other directions there.
   void mark_settled_ends() {
-    in_parallel_parts(threads_, settled_edges_.size(), [&](std::size_t i) {
-      set_mark(is_vertex_[settled_edges_[i].from]);
-      set_mark(is_vertex_[settled_edges_[i].to]);
+    in_parallel_parts(threads_, settled_faces_.size(), [&](std::size_t i) {
+      const std::span<const SettledSide> sides = sides_of(settled_faces_[i]);
+      for (std::size_t side = 0; side < sides.size(); ++side) {
+        if (!sides[side].settled) continue;
+        set_mark(is_vertex_[sides[side].from]);
+        set_mark(is_vertex_[end_of(sides, side)]);
+      }
     });
+  }
+
+  std::span<const SettledSide> sides_of(const SettledFace& face) const {
+    return std::span(settled_sides_).subspan(face.first_side, face.side_count);
+  }
+  static VertexNumber end_of(std::span<const SettledSide> sides, std::size_t side) {
+    return sides[side + 1 == sides.size() ? 0 : side + 1].from;
   }
 
   // Two lines are different if other planes meet in them, in general position: an end of two of
@@ -539,8 +551,7 @@ class Merger {
       for (std::size_t i = begin; i < end; ++i) {
         if (is_first(i)) {
           const PieceEdge& edge = edges[order[i].edge];
-          samples[next++] = {order[i].first, order[i].second, &vertices_[edge.from],
-                             &vertices_[edge.to]};
+          samples[next++] = {order[i].first, order[i].second, edge.from, edge.to};
         }
         sample_of_edge[order[i].edge] = static_cast<std::uint32_t>(next - 1);
         const PieceEdge& edge = edges[order[i].edge];
@@ -575,7 +586,7 @@ class Merger {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (may_coincide[i]) some.push_back(samples[i]);
     }
-    InternedLines interned = intern(geometry_, some, statistics_, threads_);
+    InternedLines interned = intern(geometry_, vertices_, some, statistics_, threads_);
     lines_ = std::move(interned.distinct);
     std::vector<LineNumber> number(samples.size());
     auto next_of_some = interned.number.begin();
@@ -587,8 +598,6 @@ class Merger {
         lines_.push_back(samples[i]);
       }
     }
-    // The samples point into vertices_, which may grow.
-    for (LineSample& line : lines_) line.from = line.to = nullptr;
     return number;
   }
 
@@ -601,8 +610,8 @@ class Merger {
     const std::optional<Axis> axis = axis_along(geometry_, lines_[line]);
     std::sort(stations.begin(), stations.end(), [&](VertexNumber a, VertexNumber b) {
       if (a == b) return false;
-      const Vertex& v = vertices_[a];
-      const Vertex& w = vertices_[b];
+      const Vertex v = vertices_[a];
+      const Vertex w = vertices_[b];
       if (axis) return geometry_.compare_coordinate(v, w, *axis, statistics) == Sign::Negative;
       return geometry_.compare_position(v, w, statistics) < 0;
     });
@@ -764,11 +773,12 @@ class Merger {
     all.insert(all.end(), stations.begin(), stations.end());
   }
 
-  // The parts of a line between neighbouring vertices that some segment covers, and settled edges,
-  // edge i of them with the line's number lines_.size() + i; only what may be touched.
+  // The parts of a line between neighbouring vertices that some segment covers, and edges between
+  // settled facets, edge i of them with the line's number lines_.size() + i; only what may be
+  // touched.
   std::vector<EdgeSpan> spans() {
     const Parts lines(content_.size());
-    const Parts settled(settled_edges_.size());
+    const Parts settled(touchable_edges_.size());
     std::vector<std::vector<EdgeSpan>> result(lines.count() + settled.count());
     in_parallel(threads_, lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
       std::vector<std::uint32_t>& rank = ranks();
@@ -779,8 +789,7 @@ class Merger {
     });
     in_parallel(threads_, settled, [&](std::size_t part, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        const SettledEdge& edge = settled_edges_[i];
-        if (!edge.may_be_touched) continue;
+        const TouchableEdge& edge = touchable_edges_[i];
         result[lines.count() + part].push_back(
             {{PlaneRef::of_table(edge.first), PlaneRef::of_table(edge.second)},
              static_cast<LineNumber>(lines_.size() + i),
@@ -899,7 +908,7 @@ class Merger {
   // Those of no primitive last.
   void sort_by_primitive(std::vector<EdgeSpan>& spans) const {
     const std::size_t primitives = scene_.primitives.size();
-    const std::size_t lines = lines_.size() + settled_edges_.size();
+    const std::size_t lines = lines_.size() + touchable_edges_.size();
     const std::size_t buckets_of_lines = std::max<std::size_t>(1, spans.size() / 2);
     const auto bucket_of = [=](const EdgeSpan& span) {
       if (span.primitive != none) return std::size_t{span.primitive};
@@ -948,7 +957,7 @@ class Merger {
   // vertex so far; or it is a new one.
   std::vector<VertexNumber> numbers_of(std::span<const EdgeContact> contacts) {
     std::vector<VertexNumber> result(contacts.size(), none);
-    std::vector<Vertex> middles;
+    VertexRow middles(geometry_);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (contacts[i].end) {
         result[i] = *contacts[i].end;
@@ -963,7 +972,7 @@ class Merger {
     std::size_t next = 0;
     for (VertexNumber& wanted : result) {
       if (wanted != none) continue;
-      const Vertex& point = middles[next++];
+      const Vertex point = middles[next++];
       VertexNumber& here = number[*equals.find(point, middles, statistics_)];
       if (here == none) {
         here = known.find(point, vertices_, statistics_)
@@ -1007,11 +1016,11 @@ class Merger {
       result.vertices.reserve(last.first_side + last.side_count - settled_faces_[begin].first_side);
     }
     for (const SettledFace& face : std::span(settled_faces_).subspan(begin, end - begin)) {
-      const auto sides = std::span(settled_sides_).subspan(face.first_side, face.side_count);
+      const std::span<const SettledSide> sides = sides_of(face);
       const auto for_each_settled_part = [&](const auto& visit) {
         for (std::size_t i = 0; i < sides.size(); ++i) {
           if (!sides[i].settled) continue;
-          for_each_part(sides[i].from, sides[i + 1 == sides.size() ? 0 : i + 1].from, visit);
+          for_each_part(sides[i].from, end_of(sides, i), visit);
         }
       };
       if (!face.all_sides_settled) {
@@ -1039,10 +1048,9 @@ class Merger {
     return {joined(threads_, std::move(vertices)), joined(threads_, std::move(ends))};
   }
 
-  // Edges of all faces that are no single ones; of these, the first are on lines.
+  // Edges of all faces that are no single ones, and those.
   struct FaceParts {
     std::vector<FaceEdge> edges;
-    std::size_t count_on_lines = 0;
     SingleFaces singles;
   };
 
@@ -1081,10 +1089,11 @@ class Merger {
     in_parallel(threads_, settled, [&](std::size_t part, std::size_t begin, std::size_t end) {
       add_single_faces(begin, end, edges[first_settled + part], singles[part]);
     });
+    give_up(simple_edges_);
+    give_up(touchable_edges_);
     give_up(settled_faces_);
     give_up(settled_sides_);
     FaceParts result;
-    result.count_on_lines = first_places(edges)[lines.count()];
     result.edges = joined(threads_, std::move(edges));
     result.singles = joined_faces(std::move(singles));
     return result;
@@ -1097,9 +1106,8 @@ class Merger {
     boundary.vertices = std::move(ordered.exact);
     boundary.approximate = std::move(ordered.nearest);
     const std::vector<VertexNumber>& renumbered = ordered.number;
-    give_up(vertices_);
+    vertices_ = VertexRow(geometry_);
     check();
-    set_edges(faces, renumbered, boundary);
     in_parallel_parts(threads_, faces.edges.size(), [&](std::size_t i) {
       FaceEdge& edge = faces.edges[i];
       edge.from = renumbered[edge.from];
@@ -1109,47 +1117,41 @@ class Merger {
       VertexNumber& vertex = faces.singles.vertices[i];
       vertex = renumbered[vertex];
     });
+    set_edges(faces, boundary);
     link_faces(geometry_, std::move(faces.edges), std::move(faces.singles), boundary, threads_);
     boundary.statistics.pieces = statistics_pieces_;
     boundary.statistics.tiers = statistics_;
     return boundary;
   }
 
-  void set_edges(const FaceParts& faces, const std::vector<VertexNumber>& renumbered,
-                 Boundary& boundary) {
-    const auto edge_between = [&](VertexNumber from, VertexNumber to) {
-      const auto [low, high] = std::minmax(renumbered[from], renumbered[to]);
-      return BoundaryEdge{low, high};
+  // Every edge is walked in either direction (LAW boundary.3).
+  void set_edges(const FaceParts& faces, Boundary& boundary) {
+    const auto add = [](VertexNumber from, VertexNumber to, std::vector<BoundaryEdge>& result) {
+      if (from < to) result.push_back({from, to});
     };
-    const Parts on_lines(faces.count_on_lines);
-    const Parts simple(simple_edges_.size());
-    const Parts settled(settled_edges_.size());
-    const std::size_t first_settled = on_lines.count() + simple.count();
-    std::vector<std::vector<BoundaryEdge>> edges(first_settled + settled.count());
-    in_parallel(threads_, on_lines, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      edges[part].reserve(end - begin);
+    const Parts walked(faces.edges.size());
+    const Parts singles(faces.singles.ends.size());
+    std::vector<std::vector<BoundaryEdge>> edges(walked.count() + singles.count());
+    in_parallel(threads_, walked, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      edges[part].reserve((end - begin) / 2);
       for (std::size_t i = begin; i < end; ++i) {
-        edges[part].push_back(edge_between(faces.edges[i].from, faces.edges[i].to));
+        add(faces.edges[i].from, faces.edges[i].to, edges[part]);
       }
     });
-    in_parallel(threads_, simple, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      std::vector<BoundaryEdge>& result = edges[on_lines.count() + part];
-      result.reserve(end - begin);
-      for (std::size_t i = begin; i < end; ++i) {
-        result.push_back(edge_between(simple_edges_[i].from, simple_edges_[i].to));
+    in_parallel(threads_, singles, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      std::vector<BoundaryEdge>& result = edges[walked.count() + part];
+      if (begin < end) {
+        result.reserve((faces.singles.ends[end - 1] - faces.singles.begin(begin)) / 2);
+      }
+      for (std::size_t face = begin; face < end; ++face) {
+        const std::span<const VertexNumber> loop = faces.singles.loop(face);
+        VertexNumber from = loop.back();
+        for (const VertexNumber to : loop) {
+          add(from, to, result);
+          from = to;
+        }
       }
     });
-    give_up(simple_edges_);
-    in_parallel(threads_, settled, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      std::vector<BoundaryEdge>& result = edges[first_settled + part];
-      result.reserve(end - begin);
-      for (std::size_t i = begin; i < end; ++i) {
-        for_each_part(
-            settled_edges_[i].from, settled_edges_[i].to,
-            [&](VertexNumber from, VertexNumber to) { result.push_back(edge_between(from, to)); });
-      }
-    });
-    give_up(settled_edges_);
     boundary.edges = joined(threads_, std::move(edges));
     sort_in_buckets(
         boundary.edges, boundary.vertices.size(),
@@ -1167,14 +1169,14 @@ class Merger {
   const SettledFacets settled_;
   std::vector<PieceEdge> edges_;
   std::vector<SimpleEdge> simple_edges_;
-  std::vector<SettledEdge> settled_edges_;
+  std::vector<TouchableEdge> touchable_edges_;
   std::vector<SettledFace> settled_faces_;
   std::vector<SettledSide> settled_sides_;
-  std::map<std::array<VertexNumber, 2>, std::vector<VertexNumber>> cuts_;  // of settled edges
+  std::map<std::array<VertexNumber, 2>, std::vector<VertexNumber>> cuts_;  // of touchable edges
   std::map<LineNumber, std::vector<VertexNumber>> touching_;  // where other edges touch a line
   std::vector<std::uint32_t> primitive_of_piece_;
   std::vector<unsigned char> in_general_position_;  // by piece
-  std::vector<Vertex> vertices_;
+  VertexRow vertices_;
   DisjointSets faces_;
   std::vector<LineSample> lines_;
   std::vector<LineContent> content_;  // by line

@@ -15,7 +15,7 @@ namespace {
 
 class ContactSearch {
  public:
-  ContactSearch(const Geometry& geometry, std::span<const Vertex> vertices,
+  ContactSearch(const Geometry& geometry, const VertexRow& vertices,
                 std::span<const EdgeSpan> spans)
       : geometry_(geometry), vertices_(vertices), spans_(spans) {}
 
@@ -81,12 +81,12 @@ class ContactSearch {
   }
 
   const Geometry& geometry_;
-  std::span<const Vertex> vertices_;
+  const VertexRow& vertices_;
   std::span<const EdgeSpan> spans_;
 };
 
 // The spans of one primitive are a group, and each of none.
-GroupedBoxes boxes_of(std::span<const Vertex> vertices, std::span<const EdgeSpan> spans,
+GroupedBoxes boxes_of(const VertexRow& vertices, std::span<const EdgeSpan> spans,
                       unsigned threads) {
   std::vector<DoubleBox> boxes(spans.size());
   in_parallel_parts(threads, spans.size(), [&](std::size_t i) {
@@ -104,7 +104,7 @@ GroupedBoxes boxes_of(std::span<const Vertex> vertices, std::span<const EdgeSpan
 
 }  // namespace
 
-std::vector<EdgeContact> edge_contacts(const Geometry& geometry, std::span<const Vertex> vertices,
+std::vector<EdgeContact> edge_contacts(const Geometry& geometry, const VertexRow& vertices,
                                        std::span<const EdgeSpan> spans, TierStatistics& statistics,
                                        unsigned threads, Progress* progress) {
   const GroupedBoxes grouped = boxes_of(vertices, spans, threads);
@@ -121,16 +121,17 @@ std::vector<EdgeContact> edge_contacts(const Geometry& geometry, std::span<const
   return joined(threads, std::move(contacts));
 }
 
-VertexFinder::VertexFinder(const Geometry& geometry, std::span<const Vertex> vertices)
+VertexFinder::VertexFinder(const Geometry& geometry, const VertexRow& vertices)
     : geometry_(geometry), by_x_(vertices.size()) {
   std::iota(by_x_.begin(), by_x_.end(), 0U);
   std::sort(by_x_.begin(), by_x_.end(),
             [&](std::uint32_t a, std::uint32_t b) { return vertices[a].x < vertices[b].x; });
-  for (const Vertex& v : vertices) widest_error_ = std::max(widest_error_, v.error);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    widest_error_ = std::max(widest_error_, vertices[i].error);
+  }
 }
 
-std::optional<std::uint32_t> VertexFinder::find(const Vertex& point,
-                                                std::span<const Vertex> vertices,
+std::optional<std::uint32_t> VertexFinder::find(const Vertex& point, const VertexRow& vertices,
                                                 TierStatistics& statistics) const {
   const double reach = 2 * (point.error + widest_error_) + 0x1p-50 * std::abs(point.x);
   auto it = std::lower_bound(by_x_.begin(), by_x_.end(), point.x - reach,

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "exactcsg/number/geometry.hpp"
+#include "exactcsg/solid/vertex_row.hpp"
 #include "exactcsg/support/progress.hpp"
 
 namespace exactcsg {
@@ -41,7 +42,7 @@ struct EdgeContact {
 // REQUIRES vertices of different numbers have different positions; spans are sorted by primitive,
 //          those of none last
 // COST: expected O((n + pairs whose boxes meet) log n)
-std::vector<EdgeContact> edge_contacts(const Geometry& geometry, std::span<const Vertex> vertices,
+std::vector<EdgeContact> edge_contacts(const Geometry& geometry, const VertexRow& vertices,
                                        std::span<const EdgeSpan> spans, TierStatistics& statistics,
                                        unsigned threads, Progress* progress);
 
@@ -49,11 +50,11 @@ std::vector<EdgeContact> edge_contacts(const Geometry& geometry, std::span<const
 class VertexFinder {
  public:
   // COST: O(n log n)
-  VertexFinder(const Geometry& geometry, std::span<const Vertex> vertices);
+  VertexFinder(const Geometry& geometry, const VertexRow& vertices);
   // The number of a vertex that has the point's position: always the same one of them.
   // REQUIRES the same vertices, perhaps with more behind them, which are not looked at
   // COST: O(log n + vertices of nearly the same x)
-  std::optional<std::uint32_t> find(const Vertex& point, std::span<const Vertex> vertices,
+  std::optional<std::uint32_t> find(const Vertex& point, const VertexRow& vertices,
                                     TierStatistics& statistics) const;
 
  private:

@@ -29,9 +29,13 @@ struct SingleFaces {
   std::vector<std::uint32_t> ends;      // of each loop, among them
 
   std::size_t count() const { return ends.size(); }
+  // Where its loop begins.
+  std::uint32_t begin(std::size_t face) const { return face == 0 ? 0 : ends[face - 1]; }
   std::span<std::uint32_t> loop(std::size_t face) {
-    const std::uint32_t begin = face == 0 ? 0 : ends[face - 1];
-    return std::span(vertices).subspan(begin, ends[face] - begin);
+    return std::span(vertices).subspan(begin(face), ends[face] - begin(face));
+  }
+  std::span<const std::uint32_t> loop(std::size_t face) const {
+    return std::span(vertices).subspan(begin(face), ends[face] - begin(face));
   }
 };
 

@@ -53,12 +53,13 @@ KeyInterval key_of(const Geometry& geometry, const LineSample& sample, std::uint
   return {key.lower(), key.upper(), item};
 }
 
-bool lies_on(const Geometry& geometry, const LineSample& sample, const LineSample& line,
-             TierStatistics& statistics) {
+bool lies_on(const Geometry& geometry, const VertexRow& vertices, const LineSample& sample,
+             const LineSample& line, TierStatistics& statistics) {
   if (sample.first == line.first && sample.second == line.second) return true;
-  for (const Vertex* vertex : {sample.from, sample.to}) {
+  for (const std::uint32_t number : {sample.from, sample.to}) {
+    const Vertex vertex = vertices[number];
     for (const PlaneRef plane : {line.first, line.second}) {
-      if (geometry.side(*vertex, plane, statistics) != Sign::Zero) return false;
+      if (geometry.side(vertex, plane, statistics) != Sign::Zero) return false;
     }
   }
   return true;
@@ -66,8 +67,9 @@ bool lies_on(const Geometry& geometry, const LineSample& sample, const LineSampl
 
 }  // namespace
 
-InternedLines intern(const Geometry& geometry, std::span<const LineSample> samples,
-                     TierStatistics& statistics, unsigned threads) {
+InternedLines intern(const Geometry& geometry, const VertexRow& vertices,
+                     std::span<const LineSample> samples, TierStatistics& statistics,
+                     unsigned threads) {
   InternedLines result;
   result.number.resize(samples.size());
   std::vector<KeyInterval> keys(samples.size());
@@ -88,7 +90,7 @@ InternedLines intern(const Geometry& geometry, std::span<const LineSample> sampl
           for (const KeyInterval& key : cluster) {
             const auto known =
                 std::find_if(lines.begin() + first, lines.end(), [&](const LineSample& line) {
-                  return lies_on(geometry, samples[key.item], line, tiers);
+                  return lies_on(geometry, vertices, samples[key.item], line, tiers);
                 });
             result.number[key.item] = static_cast<std::uint32_t>(known - lines.begin());
             if (known == lines.end()) lines.push_back(samples[key.item]);

@@ -78,27 +78,30 @@ class LexicographicOrder {
   const ExactPoints& exact_;
 };
 
-struct Approximated {
-  std::array<double, 3> at;
+struct Wanted {
+  double x;
+  float y;
   std::uint32_t vertex;
 };
 
 // Those that are wanted, nearly in lexicographic order: points that are neighbours there are to lie
 // side by side in memory, too.
-std::vector<Approximated> wanted_vertices(std::span<const Vertex> vertices,
-                                          std::span<const unsigned char> is_wanted,
-                                          unsigned threads) {
-  std::vector<Approximated> wanted;
+std::vector<Wanted> wanted_vertices(const VertexRow& vertices,
+                                    std::span<const unsigned char> is_wanted, unsigned threads) {
+  std::vector<Wanted> wanted;
   wanted.reserve(vertices.size());
   for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-    if (is_wanted[v]) wanted.push_back({{vertices[v].x, vertices[v].y, vertices[v].z}, v});
+    if (!is_wanted[v]) continue;
+    const Vertex& vertex = vertices[v];
+    wanted.push_back({vertex.x, static_cast<float>(vertex.y), v});
   }
-  const auto x = [](const Approximated& vertex) { return vertex.at[0]; };
+  const auto x = [](const Wanted& vertex) { return vertex.x; };
   const DoubleBuckets buckets(wanted, x, threads);
   sort_in_buckets(
-      wanted, buckets.count(), [&](const Approximated& vertex) { return buckets.of(x(vertex)); },
-      [](const Approximated& a, const Approximated& b) {
-        return a.at != b.at ? a.at < b.at : a.vertex < b.vertex;
+      wanted, buckets.count(), [&](const Wanted& vertex) { return buckets.of(x(vertex)); },
+      [](const Wanted& a, const Wanted& b) {
+        if (a.x != b.x) return a.x < b.x;
+        return a.y != b.y ? a.y < b.y : a.vertex < b.vertex;
       },
       threads);
   return wanted;
@@ -108,6 +111,24 @@ struct Positions {
   ExactPoints exact;
   std::vector<std::array<double, 3>> nearest;
 };
+
+// Item i becomes what was item order[i], in place: nearly all are where they belong.
+template <class Item>
+void reorder(std::span<const std::uint32_t> order, std::vector<Item>& items, unsigned threads) {
+  const Parts parts(order.size());
+  std::vector<std::vector<Item>> moved(parts.count());
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (order[i] != i) moved[part].push_back(items[order[i]]);
+    }
+  });
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    auto next = moved[part].begin();
+    for (std::size_t i = begin; i < end; ++i) {
+      if (order[i] != i) items[i] = *next++;
+    }
+  });
+}
 
 template <class T>
 void prefetch(const T* item) {
@@ -127,33 +148,33 @@ void prefetch(const Rational& number) {
 // order waits for most of them unless it asks ahead, for what leads to them first.
 class PointsAhead {
  public:
-  PointsAhead(const Geometry& geometry, std::span<const Vertex> vertices,
-              std::span<const Approximated> wanted)
+  PointsAhead(const Geometry& geometry, const VertexRow& vertices, std::span<const Wanted> wanted)
       : geometry_(geometry), vertices_(vertices), wanted_(wanted) {}
 
   void ask_beyond(std::size_t i) const {
     constexpr std::size_t distance = 6;  // which takes longer than a line of memory to arrive
-    if (i + 3 * distance < wanted_.size()) prefetch(&vertex(i + 3 * distance));
-    if (i + 2 * distance < wanted_.size() && vertex(i + 2 * distance).is_point) {
-      prefetch(&geometry_.approximate(vertex(i + 2 * distance).point));
-      prefetch(&geometry_.point(vertex(i + 2 * distance).point));
+    if (i + 3 * distance < wanted_.size()) vertices_.prefetch_place(vertex(i + 3 * distance));
+    if (i + 2 * distance < wanted_.size()) {
+      const std::uint32_t v = vertex(i + 2 * distance);
+      vertices_.prefetch(v);
+      if (vertices_.is_point(v)) prefetch(&geometry_.point(vertices_.point(v)));
     }
-    if (i + distance < wanted_.size() && vertex(i + distance).is_point) {
-      const Point3& point = geometry_.point(vertex(i + distance).point);
+    if (i + distance < wanted_.size() && vertices_.is_point(vertex(i + distance))) {
+      const Point3& point = geometry_.point(vertices_.point(vertex(i + distance)));
       for (std::size_t axis = 0; axis < 3; ++axis) prefetch(coordinate(point, axis));
     }
   }
 
  private:
-  const Vertex& vertex(std::size_t i) const { return vertices_[wanted_[i].vertex]; }
+  std::uint32_t vertex(std::size_t i) const { return wanted_[i].vertex; }
 
   const Geometry& geometry_;
-  std::span<const Vertex> vertices_;
-  std::span<const Approximated> wanted_;
+  const VertexRow& vertices_;
+  std::span<const Wanted> wanted_;
 };
 
-Positions positions_of(const Geometry& geometry, std::span<const Vertex> vertices,
-                       std::span<const Approximated> wanted, unsigned threads) {
+Positions positions_of(const Geometry& geometry, const VertexRow& vertices,
+                       std::span<const Wanted> wanted, unsigned threads) {
   Positions positions;
   resize(threads, positions.nearest, wanted.size());
   const Parts parts(wanted.size());
@@ -175,9 +196,9 @@ Positions positions_of(const Geometry& geometry, std::span<const Vertex> vertice
 
 }  // namespace
 
-OrderedVertices ordered_vertices(const Geometry& geometry, std::span<const Vertex> vertices,
+OrderedVertices ordered_vertices(const Geometry& geometry, const VertexRow& vertices,
                                  std::span<const unsigned char> is_wanted, unsigned threads) {
-  const std::vector<Approximated> wanted = wanted_vertices(vertices, is_wanted, threads);
+  const std::vector<Wanted> wanted = wanted_vertices(vertices, is_wanted, threads);
   Positions positions = positions_of(geometry, vertices, wanted, threads);
   std::vector<std::uint32_t> order(wanted.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -186,11 +207,11 @@ OrderedVertices ordered_vertices(const Geometry& geometry, std::span<const Verte
   resize(threads, result.number, vertices.size());
   in_parallel_parts(threads, vertices.size(),
                     [&](std::size_t v) { result.number[v] = OrderedVertices::none; });
-  resize(threads, result.nearest, order.size());
   in_parallel_parts(threads, order.size(), [&](std::size_t place) {
     result.number[wanted[order[place]].vertex] = static_cast<std::uint32_t>(place);
-    result.nearest[place] = positions.nearest[order[place]];
   });
+  reorder(order, positions.nearest, threads);
+  result.nearest = std::move(positions.nearest);
   positions.exact.reorder(order);
   result.exact = std::move(positions.exact);
   return result;

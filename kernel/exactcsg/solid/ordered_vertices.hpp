@@ -12,6 +12,7 @@
 
 #include "exactcsg/number/exact_points.hpp"
 #include "exactcsg/number/geometry.hpp"
+#include "exactcsg/solid/vertex_row.hpp"
 
 namespace exactcsg {
 
@@ -28,7 +29,7 @@ struct OrderedVertices {
 // ascending. REQUIRES one `is_wanted` for each vertex; the positions of those that are wanted
 // differ. COST: O(n log n) doubles; exact comparisons only of coordinates that have the same
 // nearest double.
-OrderedVertices ordered_vertices(const Geometry& geometry, std::span<const Vertex> vertices,
+OrderedVertices ordered_vertices(const Geometry& geometry, const VertexRow& vertices,
                                  std::span<const unsigned char> is_wanted, unsigned threads);
 
 }  // namespace exactcsg

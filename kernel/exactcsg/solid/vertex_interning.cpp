@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {
 
@@ -98,29 +99,48 @@ std::vector<KeyInterval> keys_of(const Items& items, unsigned threads) {
   return joined(threads, std::move(keys));
 }
 
+// For so many more vertices of each part: where they begin.
+std::vector<VertexRow::Counts> make_room(unsigned threads,
+                                         std::span<const VertexRow::Counts> counts,
+                                         VertexRow& distinct) {
+  std::vector<VertexRow::Counts> firsts;
+  VertexRow::Counts next = distinct.counts();
+  VertexRow::Counts more;
+  for (const VertexRow::Counts& count : counts) {
+    firsts.push_back(next);
+    next.vertices += count.vertices;
+    next.meeting_points += count.meeting_points;
+    more.vertices += count.vertices;
+    more.meeting_points += count.meeting_points;
+  }
+  distinct.grow(threads, more);
+  return firsts;
+}
+
 // Appends those that stand alone, in their order, each with a number of its own.
 template <class NumberOf>
 void append_alone(const Items& items, unsigned threads, const NumberOf& number_of,
-                  std::vector<Vertex>& distinct) {
+                  VertexRow& distinct) {
   const Parts parts(items.count());
-  std::vector<std::size_t> firsts(parts.count() + 1, 0);
+  std::vector<VertexRow::Counts> counts(parts.count());
   in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-    std::size_t count = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (items.occurrence(static_cast<std::uint32_t>(i)) == CornerOccurrence::Alone) ++count;
-    }
-    firsts[part + 1] = count;
-  });
-  firsts[0] = distinct.size();
-  std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
-  resize(threads, distinct, firsts.back());
-  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-    auto next = static_cast<std::uint32_t>(firsts[part]);
+    VertexRow::Counts count;
     for (std::size_t i = begin; i < end; ++i) {
       const auto item = static_cast<std::uint32_t>(i);
       if (items.occurrence(item) != CornerOccurrence::Alone) continue;
-      distinct[next] = items.vertex(item);
-      number_of(item) = next++;
+      ++count.vertices;
+      count.meeting_points += items.is_point(item) ? 0 : 1;
+    }
+    counts[part] = count;
+  });
+  const std::vector<VertexRow::Counts> firsts = make_room(threads, counts, distinct);
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    VertexRow::Counts next = firsts[part];
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto item = static_cast<std::uint32_t>(i);
+      if (items.occurrence(item) != CornerOccurrence::Alone) continue;
+      number_of(item) = static_cast<std::uint32_t>(next.vertices);
+      distinct.set(items.vertex(item), next);
     }
   });
 }
@@ -198,7 +218,7 @@ Parts Clusters::parts_of_sorted(unsigned threads) const {
 InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices,
                         TierStatistics& statistics, unsigned threads) {
   const Items items(geometry, vertices);
-  InternedVertices result;
+  InternedVertices result{{}, {}, VertexRow(geometry)};
   result.number_of_meeting_point.resize(vertices.meeting_points.size());
   result.number_of_point.resize(vertices.point_occurs.size());
   const auto number_of = [&](std::uint32_t item) -> std::uint32_t& {
@@ -226,14 +246,22 @@ InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices
                                 cluster_vertices.distinct().end());
         });
       });
-  const std::vector<std::size_t> firsts = first_places(distinct);
+  std::vector<VertexRow::Counts> counts;
+  for (const std::vector<Vertex>& vertices_of_part : distinct) {
+    const auto meeting_points =
+        std::ranges::count_if(vertices_of_part, [](const Vertex& v) { return !v.is_point; });
+    counts.push_back({vertices_of_part.size(), static_cast<std::size_t>(meeting_points)});
+  }
+  const std::vector<VertexRow::Counts> firsts = make_room(threads, counts, result.distinct);
   in_parallel(threads, parts, [&](std::size_t part, std::size_t, std::size_t) {
-    const auto first = static_cast<std::uint32_t>(firsts[part]);
+    VertexRow::Counts next = firsts[part];
+    const auto first = static_cast<std::uint32_t>(next.vertices);
+    for (const Vertex& vertex : distinct[part]) result.distinct.set(vertex, next);
     if (first == 0) return;
     for (const KeyInterval& key : clusters.part(part)) number_of(key.item) += first;
   });
+  give_up(distinct);
   found.reset();  // its memory is wanted now
-  result.distinct = joined(threads, std::move(distinct));
   append_alone(items, threads, number_of, result.distinct);
   return result;
 }

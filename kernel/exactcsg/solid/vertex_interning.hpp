@@ -11,6 +11,7 @@
 
 #include "exactcsg/number/geometry.hpp"
 #include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/solid/vertex_row.hpp"
 
 namespace exactcsg {
 
@@ -74,7 +75,7 @@ struct CornerVertices {
 struct InternedVertices {
   std::vector<std::uint32_t> number_of_meeting_point;  // of each that occurs
   std::vector<std::uint32_t> number_of_point;          // by id, of those that occur
-  std::vector<Vertex> distinct;  // by number; an input point where one is among the equals
+  VertexRow distinct;  // by number; an input point where one is among the equals
 };
 
 // LAW interning.1  two numbers are equal iff the exact positions are.
