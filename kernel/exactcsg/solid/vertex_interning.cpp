@@ -99,29 +99,20 @@ std::vector<KeyInterval> keys_of(const Items& items, unsigned threads) {
   return joined(threads, std::move(keys));
 }
 
-// For so many more vertices of each part: where they begin.
-std::vector<VertexRow::Counts> make_room(unsigned threads,
-                                         std::span<const VertexRow::Counts> counts,
-                                         VertexRow& distinct) {
-  std::vector<VertexRow::Counts> firsts;
-  VertexRow::Counts next = distinct.counts();
-  VertexRow::Counts more;
+// Where the vertices of each of several lists begin, and how many all have.
+std::vector<VertexRow::Counts> first_counts(std::span<const VertexRow::Counts> counts) {
+  std::vector<VertexRow::Counts> firsts(1);
   for (const VertexRow::Counts& count : counts) {
-    firsts.push_back(next);
-    next.vertices += count.vertices;
-    next.meeting_points += count.meeting_points;
-    more.vertices += count.vertices;
-    more.meeting_points += count.meeting_points;
+    const VertexRow::Counts& first = firsts.back();
+    firsts.push_back(
+        {first.vertices + count.vertices, first.meeting_points + count.meeting_points});
   }
-  distinct.grow(threads, more);
   return firsts;
 }
 
-// Appends those that stand alone, in their order, each with a number of its own.
-template <class NumberOf>
-void append_alone(const Items& items, unsigned threads, const NumberOf& number_of,
-                  VertexRow& distinct) {
-  const Parts parts(items.count());
+// Of those that stand alone, by part of the items.
+std::vector<VertexRow::Counts> count_alone(const Items& items, const Parts& parts,
+                                           unsigned threads) {
   std::vector<VertexRow::Counts> counts(parts.count());
   in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     VertexRow::Counts count;
@@ -133,7 +124,13 @@ void append_alone(const Items& items, unsigned threads, const NumberOf& number_o
     }
     counts[part] = count;
   });
-  const std::vector<VertexRow::Counts> firsts = make_room(threads, counts, distinct);
+  return counts;
+}
+
+// Those that stand alone, in their order, each with a number of its own. firsts: of each part.
+template <class NumberOf>
+void set_alone(const Items& items, const Parts& parts, std::span<const VertexRow::Counts> firsts,
+               unsigned threads, const NumberOf& number_of, VertexRow& distinct) {
   in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     VertexRow::Counts next = firsts[part];
     for (std::size_t i = begin; i < end; ++i) {
@@ -252,7 +249,12 @@ InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices
         std::ranges::count_if(vertices_of_part, [](const Vertex& v) { return !v.is_point; });
     counts.push_back({vertices_of_part.size(), static_cast<std::size_t>(meeting_points)});
   }
-  const std::vector<VertexRow::Counts> firsts = make_room(threads, counts, result.distinct);
+  // Those that stand alone come behind.
+  const Parts items_in_parts(items.count());
+  const std::vector<VertexRow::Counts> alone = count_alone(items, items_in_parts, threads);
+  counts.insert(counts.end(), alone.begin(), alone.end());
+  const std::vector<VertexRow::Counts> firsts = first_counts(counts);
+  result.distinct.grow(threads, firsts.back());
   in_parallel(threads, parts, [&](std::size_t part, std::size_t, std::size_t) {
     VertexRow::Counts next = firsts[part];
     const auto first = static_cast<std::uint32_t>(next.vertices);
@@ -262,7 +264,8 @@ InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices
   });
   give_up(distinct);
   found.reset();  // its memory is wanted now
-  append_alone(items, threads, number_of, result.distinct);
+  set_alone(items, items_in_parts, std::span(firsts).subspan(parts.count(), alone.size()), threads,
+            number_of, result.distinct);
   return result;
 }
 
