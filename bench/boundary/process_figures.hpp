@@ -25,4 +25,8 @@ inline long peak_kilobytes() {
   return usage.ru_maxrss;
 }
 
+// The least time of so many runs in one process is shown: of short ones the machine's noise is
+// large, and the first run of a long one also waits for memory that the process has never touched.
+inline int runs_if_one_takes(double seconds) { return seconds < 1 ? 5 : seconds < 20 ? 2 : 1; }
+
 }  // namespace exactcsg::bench
