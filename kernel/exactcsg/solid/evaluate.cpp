@@ -2,6 +2,7 @@
 #include "exactcsg/solid/evaluate.hpp"
 
 #include <iterator>
+#include <list>
 
 #include "exactcsg/skeleton/divacon.hpp"
 #include "exactcsg/solid/canonical_boundary.hpp"
@@ -13,7 +14,7 @@ namespace exactcsg {
 namespace {
 
 struct CellResult {
-  std::vector<PieceBuffer> buffers;
+  std::list<PieceBuffer> buffers;  // joined at every division: without moving any of them
   TierStatistics tiers;
   std::uint64_t cells = 0;
   std::uint64_t evaluated_cells = 0;
@@ -44,12 +45,7 @@ class Evaluation {
   static CellResult combine(std::span<CellResult> results) {
     CellResult sum;
     for (CellResult& result : results) {
-      if (sum.buffers.empty()) {
-        sum.buffers = std::move(result.buffers);
-      } else {
-        sum.buffers.insert(sum.buffers.end(), std::make_move_iterator(result.buffers.begin()),
-                           std::make_move_iterator(result.buffers.end()));
-      }
+      sum.buffers.splice(sum.buffers.end(), result.buffers);
       sum.tiers += result.tiers;
       sum.cells += result.cells;
       sum.evaluated_cells += result.evaluated_cells;
@@ -82,14 +78,17 @@ Boundary evaluate(const Solid& solid, const EvaluateOptions& options) {
   Scene scene = make_scene(solid, options.threads);
   if (options.progress != nullptr) options.progress->begin("decompose", scene.facets.size());
   CellResult result = run(scene, options);
-  require_bounded(solid, scene, result.buffers, options.threads);
-  restore_whole_facets(scene, result.buffers, options.threads);
+  std::vector<PieceBuffer> buffers(std::make_move_iterator(result.buffers.begin()),
+                                   std::make_move_iterator(result.buffers.end()));
+  result.buffers.clear();
+  require_bounded(solid, scene, buffers, options.threads);
+  restore_whole_facets(scene, buffers, options.threads);
   if (options.progress != nullptr) options.progress->begin("merge", 0);
   scene.bounds = {};
   const std::size_t primitives = scene.primitives.size();
   const std::size_t facets = scene.facets.size();
   Boundary boundary =
-      merge_pieces(std::move(scene), std::move(result.buffers), options.threads, options.progress);
+      merge_pieces(std::move(scene), std::move(buffers), options.threads, options.progress);
   boundary.statistics.tiers += result.tiers;
   boundary.statistics.primitives = primitives;
   boundary.statistics.facets = facets;
