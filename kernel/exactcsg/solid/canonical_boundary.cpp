@@ -368,6 +368,9 @@ class Merger {
     return scene_.primitives[primitive].meets_itself ? none : primitive;
   }
 
+  // How far ahead edges are asked for that are read in another order than they lie in memory.
+  static constexpr std::size_t edges_ahead = 16;
+
   // An edge of a piece by its two ends.
   struct EdgeOfEnds {
     std::uint64_t ends;
@@ -409,6 +412,9 @@ class Merger {
       for (std::size_t i = begin; i < end;) {
         std::size_t group_end = i + 1;
         while (group_end < end && order[group_end].ends == order[i].ends) ++group_end;
+        for (std::size_t next = i; next < group_end && next + edges_ahead < end; ++next) {
+          __builtin_prefetch(&edges_[order[next + edges_ahead].edge]);
+        }
         sort_out(std::span(order).subspan(i, group_end - i), left[part], simple[part]);
         i = group_end;
       }
@@ -549,6 +555,7 @@ class Merger {
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       std::size_t next = first_sample[part];
       for (std::size_t i = begin; i < end; ++i) {
+        if (i + edges_ahead < end) __builtin_prefetch(&edges[order[i + edges_ahead].edge]);
         if (is_first(i)) {
           const PieceEdge& edge = edges[order[i].edge];
           samples[next++] = {order[i].first, order[i].second, edge.from, edge.to};
@@ -649,19 +656,32 @@ class Merger {
           for (std::size_t begin = part_begin; begin < part_end;) {
             const LineNumber line = line_at(begin);
             std::size_t end = begin;
-            stations.clear();
             for (; end < part_end && line_at(end) == line; ++end) {
-              stations.push_back(edges[order[end]].from);
-              stations.push_back(edges[order[end]].to);
+              if (end + edges_ahead >= part_end) continue;
+              __builtin_prefetch(&edges[order[end + edges_ahead]]);
+              __builtin_prefetch(&line_of_edge[order[end + edges_ahead]]);
             }
-            sort_along(line, stations, tiers);
-            for (std::uint32_t i = 0; i < stations.size(); ++i) rank[stations[i]] = i;
+            const auto rank_stations = [&] {
+              stations.clear();
+              for (std::size_t i = begin; i < end; ++i) {
+                stations.push_back(edges[order[i]].from);
+                stations.push_back(edges[order[i]].to);
+              }
+              sort_along(line, stations, tiers);
+              for (std::uint32_t i = 0; i < stations.size(); ++i) rank[stations[i]] = i;
+            };
+            bool is_ranked = false;
             content_[line].first_segment = static_cast<std::uint32_t>(segments[part].size());
             for (std::size_t group = begin; group < end;) {
               std::size_t group_end = group;
               while (group_end < end &&
                      edges[order[group_end]].plane == edges[order[group]].plane) {
                 ++group_end;
+              }
+              // A single edge is not added to anything.
+              if (group_end - group > 1 && !is_ranked) {
+                rank_stations();
+                is_ranked = true;
               }
               add_up_on_plane(edges, std::span(order).subspan(group, group_end - group), stations,
                               rank, events, segments[part]);
@@ -837,6 +857,16 @@ class Merger {
     const std::span<const Segment> segments = segments_of(line);
     if (segments.empty()) return;
     const std::span<const VertexNumber> stations = stations_of(line);
+    if (segments.size() == 1 && stations.size() == 2) {
+      // As most lines have it: nothing to join or to cut.
+      const Segment& segment = segments.front();
+      if (!is_vertex_[segment.from] || !is_vertex_[segment.to]) {
+        broken("an edge that does not end at its vertex");
+      }
+      visit(Run{segment, segment.from, segment.to, primitive_of_piece_[segment.piece],
+                in_general_position_[segment.piece] != 0});
+      return;
+    }
     for (std::uint32_t i = 0; i < stations.size(); ++i) rank[stations[i]] = i;
     for (std::size_t begin = 0; begin < segments.size();) {
       std::size_t end = begin;
