@@ -296,6 +296,9 @@ TEST(Incremental, UnboundedSolidsHaveNoBoundary) {
   expect_as_evaluated(design, "ground");
   design.replace(ground, {make_half_space(0, 3, 4, -7)});
   expect_as_evaluated(design, "slope");
+  IncrementalEvaluation outside(Solid::full());
+  outside.subtract(unit_cube(0, 0, 0));
+  EXPECT_EQ(error_of(outside), ErrorId::UnboundedSolid);
   IncrementalEvaluation full(Solid::full());
   EXPECT_EQ(error_of(full), ErrorId::UnboundedSolid);
   full.subtract(half_space);

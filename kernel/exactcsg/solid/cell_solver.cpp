@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <variant>
 
 #include "exactcsg/csg/membership.hpp"
 #include "exactcsg/solid/classify.hpp"
@@ -116,6 +117,22 @@ bool CellSolver::touches_walls(const CellTask& task) const {
   return false;
 }
 
+namespace {
+
+// The root cell's lower corner is outside every bounded primitive, without a look at its facets.
+bool is_root_corner_outside(const Solid& solid, const Scene& scene) {
+  bool all_bounded = true;
+  const Membership corner = csg::membership_of(solid, [&](const Primitive& primitive) {
+    if (std::holds_alternative<HalfSpace>(primitive.shape)) all_bounded = false;
+    return Membership::Out;
+  });
+  if (all_bounded) return corner == Membership::Out;
+  return classify(solid, {rational_of(scene.root.lower[0]), rational_of(scene.root.lower[1]),
+                          rational_of(scene.root.lower[2])}) == PointClass::Out;
+}
+
+}  // namespace
+
 // A bounded solid has no boundary at the root cell's walls, and its complement has the space there.
 void require_bounded(const Solid& solid, const Scene& scene,
                      const std::vector<PieceBuffer>& buffers, unsigned threads) {
@@ -133,16 +150,14 @@ void require_bounded(const Solid& solid, const Scene& scene,
     return piece.share == facet_share::whole && scene.facets[piece.facet].is_half_space;
   };
   unsigned char unbounded = 0;
-  in_parallel_parts(threads, buffers.size(), [&](std::size_t b) {
+  in_parallel(threads, buffers.size(), [&](std::size_t b) {
     const PieceBuffer& buffer = buffers[b];
     if (std::ranges::any_of(buffer.meeting_points, reaches_wall) ||
         std::ranges::any_of(buffer.pieces, is_whole_half_space)) {
       set_mark(unbounded);
     }
   });
-  const Point3 corner{rational_of(scene.root.lower[0]), rational_of(scene.root.lower[1]),
-                      rational_of(scene.root.lower[2])};
-  if (unbounded != 0 || classify(solid, corner) != PointClass::Out) {
+  if (unbounded != 0 || !is_root_corner_outside(solid, scene)) {
     throw Error(ErrorId::UnboundedSolid, {"a solid without bounds", "a bounded solid"});
   }
 }

@@ -2,6 +2,7 @@
 #include "exactcsg/solid/ordered_vertices.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -88,13 +89,23 @@ struct Wanted {
 // side by side in memory, too.
 std::vector<Wanted> wanted_vertices(const VertexRow& vertices,
                                     std::span<const unsigned char> is_wanted, unsigned threads) {
+  const Parts parts(vertices.size());
+  std::vector<std::size_t> firsts(parts.count() + 1, 0);
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    firsts[part + 1] = static_cast<std::size_t>(
+        std::ranges::count_if(is_wanted.subspan(begin, end - begin), std::identity()));
+  });
+  std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
   std::vector<Wanted> wanted;
-  wanted.reserve(vertices.size());
-  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-    if (!is_wanted[v]) continue;
-    const Vertex& vertex = vertices[v];
-    wanted.push_back({vertex.x, static_cast<float>(vertex.y), v});
-  }
+  resize(threads, wanted, firsts.back());
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    auto next = wanted.begin() + static_cast<std::ptrdiff_t>(firsts[part]);
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      if (!is_wanted[v]) continue;
+      const Vertex& vertex = vertices[v];
+      *next++ = {vertex.x, static_cast<float>(vertex.y), v};
+    }
+  });
   const auto x = [](const Wanted& vertex) { return vertex.x; };
   const DoubleBuckets buckets(wanted, x, threads);
   sort_in_buckets(

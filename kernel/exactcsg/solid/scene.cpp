@@ -466,7 +466,7 @@ class SceneBuilder {
     for (FacetIndex f = 0; f < facet_count_; ++f) {
       if (scene.facets[f].is_half_space) add_half_space_polygon(scene, f);
     }
-    set_bounds_of_primitives(scene);
+    set_bounds_of_primitives(scene, threads);
     return scene;
   }
 
@@ -524,19 +524,20 @@ class SceneBuilder {
     for (std::size_t axis = 0; axis < 3; ++axis) scene.bounds.facets[axis][f] = bounds[axis];
   }
 
-  static void set_bounds_of_primitives(Scene& scene) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::vector<Range>& facets = scene.bounds.facets[axis];
-      for (const ScenePrimitive& primitive : scene.primitives) {
-        Range whole;
-        for (std::uint32_t f = 0; f < primitive.facet_count; ++f) {
-          const Range& bounds = facets[primitive.first_facet + f];
-          whole.lower = std::min(whole.lower, bounds.lower);
-          whole.upper = std::max(whole.upper, bounds.upper);
-        }
-        scene.bounds.primitives[axis].push_back(whole);
+  static void set_bounds_of_primitives(Scene& scene, unsigned threads) {
+    const std::size_t count = scene.primitives.size();
+    for (std::vector<Range>& axis : scene.bounds.primitives) axis.resize(count);
+    in_parallel(threads, 3 * count, [&](std::size_t round) {
+      const std::size_t axis = round / count;
+      const ScenePrimitive& primitive = scene.primitives[round % count];
+      Range whole;
+      for (const Range& bounds : std::span(scene.bounds.facets[axis])
+                                     .subspan(primitive.first_facet, primitive.facet_count)) {
+        whole.lower = std::min(whole.lower, bounds.lower);
+        whole.upper = std::max(whole.upper, bounds.upper);
       }
-    }
+      scene.bounds.primitives[axis][round % count] = whole;
+    });
   }
 
   PrimitiveIndex index_of(const Primitive& primitive) {
@@ -570,39 +571,53 @@ class SceneBuilder {
 
   // Numbers points and planes in the order of the primitives. What can be found out of a primitive
   // by itself is found by several threads, of a few primitives at a time, while one of them numbers
-  // those before; of a few in all, they share each.
+  // the points, and the planes of those before; of a few in all, they share each.
   void add_shapes(unsigned threads) {
     make_room();
     constexpr std::size_t few = 8;
     const bool share_each = shapes_.size() <= few;
     const unsigned inside = share_each ? threads : 1;
-    if (share_each) threads = 1;
+    const unsigned outside = share_each ? 1 : threads;
     const std::size_t at_a_time = threads == 1 ? 1 : 64;
     Batch before;
     for (std::size_t first = 0; first < shapes_.size(); first += at_a_time) {
       const std::size_t count = std::min(at_a_time, shapes_.size() - first);
       Batch batch{std::span(shapes_).subspan(first, count), std::vector<PreparedPolyhedron>(count)};
-      in_parallel(threads, count, [&](std::size_t i) {
+      in_parallel(outside, count, [&](std::size_t i) {
         if (const Shape& shape = batch.shapes[i]; shape.polyhedron) {
           set_points(*shape.polyhedron, batch.known[i], inside);
         }
       });
-      set_kinds(batch.shapes, batch.known, threads, inside);
-      in_parallel(threads, count + 1, [&](std::size_t i) {
-        if (i == 0) {
+      in_parallel(threads, 2, [&](std::size_t task) {
+        if (task == 0) {
+          set_planes_of(batch, outside, inside);
+        } else {
           add(before);
-          return;
+          add_points(batch);
         }
-        const Shape& shape = batch.shapes[i - 1];
-        PreparedPolyhedron& known = batch.known[i - 1];
-        if (!shape.polyhedron || !known.planes.empty()) return;
-        set_planes(*shape.polyhedron, *shape.kind, known, inside);
       });
       before = std::move(batch);
     }
     add(before);
   }
 
+  void set_planes_of(Batch& batch, unsigned outside, unsigned inside) {
+    set_kinds(batch.shapes, batch.known, outside, inside);
+    in_parallel(outside, batch.shapes.size(), [&](std::size_t i) {
+      const Shape& shape = batch.shapes[i];
+      PreparedPolyhedron& known = batch.known[i];
+      if (!shape.polyhedron || !known.planes.empty()) return;
+      set_planes(*shape.polyhedron, *shape.kind, known, inside);
+    });
+  }
+
+  void add_points(Batch& batch) {
+    for (std::size_t i = 0; i < batch.shapes.size(); ++i) {
+      if (batch.shapes[i].polyhedron) add_points(batch.shapes[i], batch.known[i]);
+    }
+  }
+
+  // All but the points.
   void add(Batch& batch) {
     for (std::size_t i = 0; i < batch.shapes.size(); ++i) {
       if (batch.shapes[i].polyhedron) {
@@ -629,7 +644,7 @@ class SceneBuilder {
   }
 
   // Copies of one shape follow one another in most models.
-  void set_kinds(std::span<Shape> shapes, std::span<PreparedPolyhedron> known, unsigned threads,
+  void set_kinds(std::span<Shape> shapes, std::span<PreparedPolyhedron> known, unsigned outside,
                  unsigned inside) {
     struct NewKind {
       std::shared_ptr<Kind> kind;
@@ -644,7 +659,7 @@ class SceneBuilder {
       }
       shapes[i].kind = last_kind_;
     }
-    in_parallel(threads, new_kinds.size(),
+    in_parallel(outside, new_kinds.size(),
                 [&](std::size_t i) { complete(*new_kinds[i].kind, *new_kinds[i].known, inside); });
   }
 
@@ -677,8 +692,16 @@ class SceneBuilder {
     has_half_spaces_ = true;
   }
 
+  void add_points(Shape& shape, const PreparedPolyhedron& known) {
+    builder_.add_owner(shape.polyhedron);
+    shape.first_point = points_.size();
+    for (std::size_t v = 0; v < known.points.size(); ++v) {
+      points_.push_back(builder_.add_owned_point(shape.polyhedron->vertices[v], known.points[v]));
+    }
+  }
+
+  // REQUIRES that its points were added.
   void add_polyhedron(Shape& shape, PreparedPolyhedron& known) {
-    const Polyhedron& polyhedron = *shape.polyhedron;
     const Kind& kind = *shape.kind;
     primitives_.push_back({shape.convex, facet_count_, kind.facet_count()});
     facet_count_ += kind.facet_count();
@@ -687,11 +710,6 @@ class SceneBuilder {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       lower_[axis] = std::min(lower_[axis], known.bounds[axis].lower);
       upper_[axis] = std::max(upper_[axis], known.bounds[axis].upper);
-    }
-    builder_.add_owner(shape.polyhedron);
-    shape.first_point = points_.size();
-    for (std::size_t v = 0; v < known.points.size(); ++v) {
-      points_.push_back(builder_.add_owned_point(polyhedron.vertices[v], known.points[v]));
     }
     const auto point = [&](std::uint32_t v) { return points_[shape.first_point + v]; };
     shape.first_plane = plane_count_;

@@ -51,7 +51,7 @@ SettledFacets settled_facets(const Scene& scene, const std::vector<PieceBuffer>&
   using Emitted = SettledFacets::Emitted;
   std::vector<Emitted> emitted;
   resize(threads, emitted, scene.facets.size());
-  in_parallel_parts(threads, buffers.size(), [&](std::size_t b) {
+  in_parallel(threads, buffers.size(), [&](std::size_t b) {
     for (const BoundaryPiece& piece : buffers[b].pieces) {
       if (piece.share != facet_share::whole) continue;
       emitted[piece.facet] =

@@ -65,10 +65,9 @@ void restore(PieceBuffer& buffer, std::uint32_t number, std::vector<FacetParts>&
 void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers, unsigned threads) {
   std::vector<FacetParts> facets;
   resize(threads, facets, scene.facets.size());
-  in_parallel_parts(threads, buffers.size(), [&](std::size_t b) {
-    add_parts(buffers[b], static_cast<std::uint32_t>(b), facets);
-  });
-  in_parallel_parts(threads, buffers.size(), [&](std::size_t b) {
+  in_parallel(threads, buffers.size(),
+              [&](std::size_t b) { add_parts(buffers[b], static_cast<std::uint32_t>(b), facets); });
+  in_parallel(threads, buffers.size(), [&](std::size_t b) {
     restore(buffers[b], static_cast<std::uint32_t>(b), facets);
     buffers[b] = compacted(buffers[b]);
   });
