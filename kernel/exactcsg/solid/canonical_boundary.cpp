@@ -182,21 +182,23 @@ class Merger {
       check();
       PiecePlaces places{firsts[part], touchable_edges[part]};
       NumberedCorners corners;
-      pieces.for_each(begin, end,
-                      [&](const PieceBuffer& buffer, std::size_t first_meeting_point,
-                          const BoundaryPiece& piece, PieceNumber number) {
-                        number_corners(buffer, piece, interned, first_meeting_point, corners);
-                        if (settled_.is_settled(piece)) {
-                          add_settled_face(piece, number, corners, places);
-                        } else {
-                          for (std::size_t i = 0; i < corners.size(); ++i) {
-                            add_edge(piece, number, corners, i, places);
-                          }
-                        }
-                        primitive_of_piece_[number] = whole_primitive_of(piece);
-                        in_general_position_[number] = piece.in_general_position ? 1 : 0;
-                        if (piece.is_hole) faces_.unite(number - 1, number);
-                      });
+      pieces.for_each(
+          begin, end,
+          [&](const PieceBuffer& buffer, std::size_t first_meeting_point,
+              const BoundaryPiece& piece, PieceNumber number) {
+            number_corners(buffer, piece, interned, first_meeting_point, corners);
+            if (settled_.is_settled(piece)) {
+              add_settled_face(piece, number, corners, places);
+            } else {
+              for (std::size_t i = 0; i < corners.size(); ++i) {
+                add_edge(piece, number, corners, i, places);
+              }
+            }
+            primitive_of_piece_[number] = whole_primitive_of(piece);
+            in_general_position_[number] = piece.in_general_position ? 1 : 0;
+            if (piece.is_hole) faces_.unite(number - 1, number);
+          },
+          AskForFacet{*this}, AskForCorners{scene_});
     });
     touchable_edges_ = joined(threads_, std::move(touchable_edges));
     statistics_pieces_ = pieces.size();
@@ -207,9 +209,12 @@ class Merger {
     std::vector<PieceCounts> counts(parts.count());
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       PieceCounts count;
-      pieces.for_each(begin, end,
-                      [&](const PieceBuffer&, std::size_t, const BoundaryPiece& piece,
-                          PieceNumber) { this->count(piece, count); });
+      pieces.for_each(
+          begin, end,
+          [&](const PieceBuffer&, std::size_t, const BoundaryPiece& piece, PieceNumber) {
+            this->count(piece, count);
+          },
+          AskForFacet{*this}, AskForCorners{scene_});
       counts[part] = count;
     });
     std::vector<PieceCounts> firsts(1);
@@ -236,6 +241,23 @@ class Merger {
           return !settled_.is_settled(PlaneRef::of_table(corner.side_plane));
         }));
   }
+
+  // Pieces refer to facets all over the scene.
+  struct AskForFacet {
+    const Merger& merger;
+    void operator()(const BoundaryPiece& piece) const {
+      __builtin_prefetch(&merger.scene_.facets[piece.facet]);
+      merger.settled_.prefetch(piece);
+    }
+  };
+  struct AskForCorners {
+    const Scene& scene;
+    void operator()(const BoundaryPiece& piece) const {
+      if (piece.share != facet_share::whole) return;
+      const SceneFacet& facet = scene.facets[piece.facet];
+      if (!facet.is_half_space) __builtin_prefetch(scene.corners.data() + facet.first_corner);
+    }
+  };
 
   std::span<const PointCorner> corners_of_facet(const BoundaryPiece& piece) const {
     const SceneFacet& facet = scene_.facets[piece.facet];
@@ -292,9 +314,10 @@ class Merger {
         }
       }
     };
-    in_parallel(
-        threads_, Parts(pieces.size()),
-        [&](std::size_t, std::size_t begin, std::size_t end) { pieces.for_each(begin, end, add); });
+    in_parallel(threads_, Parts(pieces.size()),
+                [&](std::size_t, std::size_t begin, std::size_t end) {
+                  pieces.for_each(begin, end, add, AskForFacet{*this}, AskForCorners{scene_});
+                });
     return result;
   }
 

@@ -30,6 +30,10 @@ class SettledFacets {
   bool is_settled(PlaneRef plane) const {
     return !plane.is_wall() && planes_[plane.table_index()] != Emitted::NotWhole;
   }
+  // Asks for what is_settled(piece) reads.
+  void prefetch(const BoundaryPiece& piece) const {
+    __builtin_prefetch(&planes_[piece.plane.plane.table_index()]);
+  }
   // REQUIRES is_settled(plane)
   bool is_in_general_position(PlaneRef plane) const {
     return planes_[plane.table_index()] == Emitted::InGeneralPosition;
