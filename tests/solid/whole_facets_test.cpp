@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -101,6 +102,71 @@ TEST_F(WholeFacets, DoNotDependOnThreads) {
     ASSERT_EQ(one[facet].pieces.size(), 1);
     EXPECT_EQ(one[facet].pieces[0].share, facet_share::whole);
   }
+}
+
+// The facet of the unit cube in z = 0 between walls: a rectangle, whose corners are known.
+class SlicesOfWholeFacets : public WholeFacets {
+ protected:
+  static constexpr double position = 0.25;
+
+  FacetIndex bottom() const {
+    for (FacetIndex facet = 0; facet < scene_.facets.size(); ++facet) {
+      if (scene_.bounds.facets[2][facet].upper < 0.5) return facet;
+    }
+    ADD_FAILURE() << "no facet in z = 0";
+    return 0;
+  }
+
+  PieceBuffer slice(Sign kept_of_x, Sign kept_of_y) {
+    Slice slice;
+    if (kept_of_x != Sign::Zero) slice.add({PlaneRef::of_wall(Axis::X, position), kept_of_x});
+    if (kept_of_y != Sign::Zero) slice.add({PlaneRef::of_wall(Axis::Y, position), kept_of_y});
+    const OrientedPlaneRef plane = scene_.facets[bottom()].plane;
+    collector_.add_slice(plane, plane.sense, bottom(), half / 2, slice);
+    return collector_.take();
+  }
+
+  PieceCollector collector_;
+};
+
+TEST_F(SlicesOfWholeFacets, AreCutIfAPartIsMissing) {
+  std::vector<PieceBuffer> buffers{slice(Sign::Positive, Sign::Zero),
+                                   slice(Sign::Positive, Sign::Negative)};
+  restore_whole_facets(scene_, buffers, 1);
+  const std::array<std::array<Range, 3>, 2> expected{
+      {{Range{position, 1}, Range{0, 1}, Range{0, 0}},
+       {Range{position, 1}, Range{0, position}, Range{0, 0}}}};
+  for (std::size_t b = 0; b < 2; ++b) {
+    ASSERT_EQ(buffers[b].pieces.size(), 1);
+    const BoundaryPiece& piece = buffers[b].pieces.front();
+    EXPECT_FALSE(piece.is_slice);
+    ASSERT_EQ(piece.corner_count, 4);
+    std::array<Range, 3> bounds;
+    for (const PieceCorner& corner : buffers[b].corners_of(piece)) {
+      const Vertex vertex = corner.is_point
+                                ? scene_.geometry.vertex(static_cast<PointId>(corner.vertex))
+                                : buffers[b].meeting_points[corner.vertex];
+      for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+        Range& range = bounds[static_cast<std::size_t>(axis)];
+        range.lower = std::min(range.lower, vertex.coordinate(axis));
+        range.upper = std::max(range.upper, vertex.coordinate(axis));
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(bounds[axis].lower, expected[b][axis].lower);
+      EXPECT_EQ(bounds[axis].upper, expected[b][axis].upper);
+    }
+  }
+}
+
+TEST_F(SlicesOfWholeFacets, AddUpToAWhole) {
+  std::vector<PieceBuffer> buffers{
+      slice(Sign::Positive, Sign::Positive), slice(Sign::Positive, Sign::Negative),
+      slice(Sign::Negative, Sign::Positive), slice(Sign::Negative, Sign::Negative)};
+  restore_whole_facets(scene_, buffers, 1);
+  EXPECT_EQ(rows(buffers), (std::vector<Row>{{{bottom(), facet_share::whole, 0}}, {}, {}, {}}));
+  EXPECT_FALSE(buffers.front().pieces.front().is_slice);
+  EXPECT_TRUE(buffers.front().corners.empty());
 }
 
 }  // namespace

@@ -17,7 +17,25 @@ namespace {
 // That are kept from one facet to the next, lest cells with many facets take too much memory.
 constexpr std::size_t most_vertices = 1U << 14U;
 
+PlaneSplit outside_of(OrientedPlaneRef plane) {
+  return plane.sense > 0 ? PlaneSplit::AllPositive : PlaneSplit::AllNegative;
+}
+
+[[noreturn]] void throw_undecided() {
+  throw Error(ErrorId::InternalError, {"a facet that is still undecided", "a decided one"});
+}
+
 }  // namespace
+
+Slice slice_of(const Cell& cell, CutWalls walls) {
+  Slice slice;
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+    const auto i = static_cast<std::size_t>(axis);
+    if (walls.lower(i)) slice.add({PlaneRef::of_wall(axis, cell.lower[i]), Sign::Positive});
+    if (walls.upper(i)) slice.add({PlaneRef::of_wall(axis, cell.upper[i]), Sign::Negative});
+  }
+  return slice;
+}
 
 CellEvaluator::CellEvaluator(const Scene& scene, Progress* progress)
     : scene_(scene),
@@ -90,9 +108,11 @@ void CellEvaluator::order_primitives_for(const CellFacet& facet) {
   order_.insert(order_.end(), not_coplanar_.begin(), not_coplanar_.end());
 }
 
-bool CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree& tree,
-                             PieceCollector& result, TierStatistics& statistics) {
+bool CellEvaluator::evaluate(std::span<const CellFacet> facets, const Cell& cell,
+                             const PrunedTree& tree, PieceCollector& result,
+                             TierStatistics& statistics) {
   result_ = &result;
+  cell_ = &cell;
   statistics_ = &statistics;
   in_general_position_ = true;
   build_local_forms(facets);
@@ -109,16 +129,72 @@ bool CellEvaluator::evaluate(std::span<const CellFacet> facets, const PrunedTree
     if (store_.vertex_count() > most_vertices) store_.clear();
     decided_.clear();
     crossings_.clear();
-    for (std::uint32_t place = 0; place < order_.size(); ++place) {
-      crossings_.push_back({place, {}, {}, false});
-    }
     const PieceCollector::Mark before = result.mark();
-    classify({append_polygon(facet.polygon.corners, store_), facet.share}, {0, order_.size()});
+    if (facet.walls.any()) {
+      classify_slice(facet);
+    } else {
+      for (std::uint32_t place = 0; place < order_.size(); ++place) {
+        crossings_.push_back({place, {}, {}, false});
+      }
+      classify({append_polygon(facet.polygon.corners, store_), facet.share}, {0, order_.size()});
+    }
     join_pieces(facet, before);
     store_.corners.clear();
     truth_.change(facet.primitive, {});
   }
   return in_general_position_;
+}
+
+void CellEvaluator::classify_slice(const CellFacet& facet) {
+  const OrientedPlaneRef own = facet.polygon.plane;
+  const std::size_t candidates = crossings_.size();
+  const Outcome outcome = decide_whole(append_polygon(facet.polygon.corners, store_));
+  if (outcome == Outcome::Boundary) {
+    result_->add_slice({own.plane, *outward_sense()}, own.sense, facet.facet, facet.share,
+                       slice_of(*cell_, facet.walls));
+  } else if (outcome == Outcome::Undecided) {
+    cut_slice_.clear();
+    slicer_.append(scene_.geometry, facet.polygon.corners, own.plane, slice_of(*cell_, facet.walls),
+                   cut_slice_);
+    store_.corners.clear();
+    classify({append_polygon(cut_slice_, store_), facet.share}, {candidates, crossings_.size()});
+  }
+  undo_decisions(0);
+}
+
+// Decides the primitives that surely do not cross the facet; the others are added to the crossings.
+// Where a corner lies in a plane, it is asked again which of the corners in the cell do.
+CellEvaluator::Outcome CellEvaluator::decide_whole(const CornerRun& polygon) {
+  const std::size_t candidates = crossings_.size();
+  bool coplanar_crosses = false;
+  for (std::uint32_t place = 0; place < order_.size(); ++place) {
+    Crossing crossing{place, {}, {}, false};
+    if (const auto outward = outward_sense()) {
+      if (*outward == 0) return Outcome::NoBoundary;
+      if (!coplanar_crosses && !is_coplanar(crossing)) return Outcome::Boundary;
+    }
+    LocalPrimitive& other = locals_[order_[place]];
+    Relation relation = Relation::Across;
+    if (other.convex) {
+      const bool before = std::exchange(in_general_position_, true);
+      relation = relation_to_planes(polygon, other, crossing.inside);
+      if (!std::exchange(in_general_position_, before)) relation = Relation::Across;
+    }
+    if (relation == Relation::Across) {
+      coplanar_crosses |= is_coplanar(crossing);
+      crossings_.push_back(crossing);
+      continue;
+    }
+    const bool is_inside = relation == Relation::Inside;
+    if (is_inside && is_left_to(other.primitive, crossing.inside)) return Outcome::NoBoundary;
+    decide(other.primitive,
+           is_inside ? crossing.inside : BothSides{Membership::Out, Membership::Out});
+  }
+  const auto outward = outward_sense();
+  if (outward && *outward == 0) return Outcome::NoBoundary;
+  if (outward && !coplanar_crosses) return Outcome::Boundary;
+  if (crossings_.size() == candidates) throw_undecided();
+  return Outcome::Undecided;
 }
 
 // Other primitives' planes may cut a facet that all of them leave alone in the end.
@@ -133,7 +209,13 @@ void CellEvaluator::join_pieces(const CellFacet& facet, const PieceCollector::Ma
   if (sum != facet.share) return;
   const BoundaryPiece joined = pieces.front();
   result_->take_back_to(before);
-  result_->add(joined.plane, joined.corner_sense, facet.facet, facet.share, facet.polygon.corners);
+  if (facet.walls.any()) {
+    result_->add_slice(joined.plane, joined.corner_sense, facet.facet, facet.share,
+                       slice_of(*cell_, facet.walls));
+  } else {
+    result_->add(joined.plane, joined.corner_sense, facet.facet, facet.share,
+                 facet.polygon.corners);
+  }
 }
 
 void CellEvaluator::classify(Part part, Crossings candidates) {
@@ -223,32 +305,29 @@ CellEvaluator::Outcome CellEvaluator::decide_uncrossed(Part& part, Crossings& ca
   const auto outward = outward_sense();
   if (outward && *outward == 0) return Outcome::NoBoundary;
   if (outward && !coplanar_crosses) return Outcome::Boundary;
-  if (candidates.begin == candidates.end) {
-    throw Error(ErrorId::InternalError, {"a facet that is still undecided", "a decided one"});
-  }
+  if (candidates.begin == candidates.end) throw_undecided();
   return Outcome::Undecided;
 }
 
 // All planes are looked at before any of them cuts: one that leaves the polygon outside ends it,
-// and is asked first of the next polygon, which mostly is a neighbour of this one.
-CellEvaluator::Relation CellEvaluator::relate(const CornerRun& polygon, LocalPrimitive& local,
-                                              Crossing& crossing) {
+// and is asked first of the next polygon, which mostly is a neighbour of this one. Those that cut
+// are kept in cutting_.
+CellEvaluator::Relation CellEvaluator::relation_to_planes(const CornerRun& polygon,
+                                                          LocalPrimitive& local,
+                                                          BothSides& inside) {
   const PlaneRef own = facet_->polygon.plane.plane;
-  const auto outside = [](OrientedPlaneRef plane) {
-    return plane.sense > 0 ? PlaneSplit::AllPositive : PlaneSplit::AllNegative;
-  };
-  crossing.inside = {Membership::In, Membership::In};
+  inside = {Membership::In, Membership::In};
   cutting_.clear();
   const std::uint32_t end = local.first_facet + local.facet_count;
   std::uint32_t i = local.separating;
   do {
     const OrientedPlaneRef plane = planes_[i].oriented;
     if (plane.plane == own) {
-      crossing.inside = plane.sense > 0 ? BothSides{Membership::Out, Membership::In}
-                                        : BothSides{Membership::In, Membership::Out};
+      inside = plane.sense > 0 ? BothSides{Membership::Out, Membership::In}
+                               : BothSides{Membership::In, Membership::Out};
     } else {
       const PlaneSplit side = split_without_signs(polygon, planes_[i]);
-      if (side == outside(plane)) {
+      if (side == outside_of(plane)) {
         local.separating = i;
         return Relation::Outside;
       }
@@ -256,12 +335,19 @@ CellEvaluator::Relation CellEvaluator::relate(const CornerRun& polygon, LocalPri
     }
     if (++i == end) i = local.first_facet;
   } while (i != local.separating);
-  if (cutting_.empty()) return Relation::Inside;
+  return cutting_.empty() ? Relation::Inside : Relation::Across;
+}
+
+CellEvaluator::Relation CellEvaluator::relate(const CornerRun& polygon, LocalPrimitive& local,
+                                              Crossing& crossing) {
+  const PlaneRef own = facet_->polygon.plane.plane;
+  const Relation relation = relation_to_planes(polygon, local, crossing.inside);
+  if (relation != Relation::Across) return relation;
   crossing.section = polygon;
   for (const std::uint32_t cutting : cutting_) {
     const OrientedPlaneRef plane = planes_[cutting].oriented;
     const PlaneSplit side = split(crossing.section, planes_[cutting]);
-    if (side == outside(plane)) return Relation::Outside;
+    if (side == outside_of(plane)) return Relation::Outside;
     if (side != PlaneSplit::Both) continue;
     const CuttingPlane cut{plane.plane, signs_};
     const auto crossed = append_crossings(scene_.geometry, own, crossing.section, cut, store_);
@@ -408,9 +494,7 @@ void CellEvaluator::emit_on_either_side(const Part& part, const Crossing& crossi
     truth_.change(primitive, sides);
     const auto outward = outward_sense();
     truth_.change(primitive, {});
-    if (!outward) {
-      throw Error(ErrorId::InternalError, {"a facet that is still undecided", "a decided one"});
-    }
+    if (!outward) throw_undecided();
     return *outward;
   };
   const signed char outside = outward_if({Membership::Out, Membership::Out});

@@ -8,6 +8,10 @@
 // no boundary. Different: boundary, turned by the side that is In. A piece that facets of several
 // primitives cover is emitted by the lowest of them only.
 //
+// Of a slice (decomposition.hpp) the whole facet is held against the other primitives first: if it
+// is outside one plane or inside all of them, so is its part in the cell. It is cut if that does
+// not decide it.
+//
 // Most primitives leave a facet alone. Of one that is convex and crosses it, the section is taken:
 // if it can be boundary only inside, or only inside differs, the section is the part to go on with.
 // What the last primitive leaves outside is emitted as it is, with its notches and its hole
@@ -31,12 +35,29 @@
 
 namespace exactcsg {
 
+// Those of a cell's walls that cut a facet.
+class CutWalls {
+ public:
+  bool any() const { return bits_ != 0; }
+  bool across(std::size_t axis) const { return (bits_ >> 2 * axis & 3U) != 0; }
+  bool lower(std::size_t axis) const { return (bits_ >> 2 * axis & 1U) != 0; }
+  bool upper(std::size_t axis) const { return (bits_ >> 2 * axis & 2U) != 0; }
+  void add_lower(std::size_t axis) { bits_ |= static_cast<unsigned char>(1U << 2 * axis); }
+  void add_upper(std::size_t axis) { bits_ |= static_cast<unsigned char>(2U << 2 * axis); }
+
+ private:
+  unsigned char bits_ = 0;
+};
+
+Slice slice_of(const Cell& cell, CutWalls walls);
+
 // A facet polygon of a cell and the primitive it belongs to; those of one primitive are adjacent.
 struct CellFacet {
   PrimitiveIndex primitive = 0;
   FacetIndex facet = 0;
   std::uint64_t share = facet_share::whole;
-  FacetPolygon polygon;
+  FacetPolygon polygon;  // of a slice, the facet as a whole
+  CutWalls walls;
 };
 
 // What is known just in front of a facet, along the stored normal of its plane, and just behind.
@@ -66,8 +87,8 @@ class CellEvaluator {
   // REQUIRES every primitive of the tree has facets in the cell, and every facet's primitive occurs
   // in the tree. Whether the cell is in general position, as far as that does not depend on walls
   // (LAW pieces.3).
-  bool evaluate(std::span<const CellFacet> facets, const PrunedTree& tree, PieceCollector& result,
-                TierStatistics& statistics);
+  bool evaluate(std::span<const CellFacet> facets, const Cell& cell, const PrunedTree& tree,
+                PieceCollector& result, TierStatistics& statistics);
 
  private:
   // A part of the facet at hand, and its share of the facet.
@@ -110,11 +131,14 @@ class CellEvaluator {
   LocalPlace local_form_of_mesh(std::span<const CellFacet> facets);
   void order_primitives_for(const CellFacet& facet);
   void join_pieces(const CellFacet& facet, const PieceCollector::Mark& before);
+  void classify_slice(const CellFacet& facet);
+  Outcome decide_whole(const CornerRun& polygon);
   std::optional<signed char> outward_sense() const;
   void classify(Part part, Crossings candidates);
   bool is_no_boundary_if(PrimitiveIndex primitive, const BothSides& sides);
   Outcome decide_uncrossed(Part& part, Crossings& candidates);
   Relation relate(const CornerRun& polygon, LocalPrimitive& local, Crossing& crossing);
+  Relation relation_to_planes(const CornerRun& polygon, LocalPrimitive& local, BothSides& inside);
   Relation relation_of(const CornerRun& section) const;
   void divide(const Part& part, Crossings crossings);
   void classify_half(const Part& half, Crossings crossings, PlaneRef plane, PlaneSplit other_side);
@@ -164,6 +188,9 @@ class CellEvaluator {
   std::vector<Sign> signs_;
   std::vector<LoopCorner> loop_;
   const CellFacet* facet_ = nullptr;
+  const Cell* cell_ = nullptr;
+  Slicer slicer_;
+  std::vector<Corner> cut_slice_;
   bool in_general_position_ = true;
   PieceCollector* result_ = nullptr;
   TierStatistics* statistics_ = nullptr;

@@ -48,8 +48,8 @@ CellSolver::Solution CellSolver::solve(const CellTask& cell, TierStatistics& sta
   bool in_general_position = true;
   if (classified) {
     decomposition_.collect_facets(cell, worker.facets);
-    in_general_position =
-        worker.evaluator.evaluate(worker.facets, cell.tree, worker.collector, statistics);
+    in_general_position = worker.evaluator.evaluate(worker.facets, cell.cell, cell.tree,
+                                                    worker.collector, statistics);
   } else {
     emit_primitive(cell, worker.collector);
   }
@@ -72,6 +72,11 @@ void CellSolver::emit_primitive(const CellTask& cell, PieceCollector& result) co
     const FacetIndex facet = cell.whole_facet(scene_, facets, i);
     const OrientedPlaneRef plane = scene_.facets[facet].plane;
     result.add(outward(plane), plane.sense, facet, facet_share::whole, {});
+  }
+  for (const SlicedFacet& facet : cell.sliced_of(facets)) {
+    const OrientedPlaneRef plane = scene_.facets[facet.facet].plane;
+    result.add_slice(outward(plane), plane.sense, facet.facet, facet.share,
+                     slice_of(cell.cell, facet.walls));
   }
   for (const ClippedFacet& facet : cell.clipped_of(facets)) {
     const OrientedPlaneRef plane = scene_.facets[facet.facet].plane;
@@ -105,10 +110,23 @@ bool CellSolver::touches_walls(const CellTask& task) const {
              (facet.bounds[i].upper < cell.upper[i] || are_off(cell.upper[i]));
     });
   };
+  // LAW decomposition.3 says it of walls that cut it.
+  const auto is_slice_off_walls = [&](const SlicedFacet& facet) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!facet.walls.across(axis)) continue;
+      const Range& bounds = scene_.bounds.facets[axis][facet.facet];
+      if (!(facet.walls.lower(axis) || bounds.lower > cell.lower[axis])) return false;
+      if (!(facet.walls.upper(axis) || bounds.upper < cell.upper[axis])) return false;
+    }
+    return true;
+  };
   for (const PrimitiveFacets& facets : task.primitives) {
     if (scene_.primitives[facets.primitive].meets_itself) return true;
     for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
       if (!is_inside(task.whole_facet(scene_, facets, i))) return true;
+    }
+    for (const SlicedFacet& facet : task.sliced_of(facets)) {
+      if (!is_slice_off_walls(facet)) return true;
     }
     for (const ClippedFacet& facet : task.clipped_of(facets)) {
       if (!is_off_walls(facet)) return true;

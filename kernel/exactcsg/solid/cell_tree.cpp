@@ -149,6 +149,7 @@ class PointInCell {
 void drop_facets(CellTask& task) {
   give_up(task.primitives);
   give_up(task.whole);
+  give_up(task.sliced);
   give_up(task.clipped);
   give_up(task.corners);
   task.facet_count = 0;
@@ -176,9 +177,11 @@ void add_facets(CellTask& task, const CellTask& added) {
   };
   if (std::any_of(task.primitives.begin(), task.primitives.end(), is_there)) return;
   facets.first_whole = static_cast<std::uint32_t>(task.whole.size());
+  facets.first_sliced = static_cast<std::uint32_t>(task.sliced.size());
   facets.first_clipped = static_cast<std::uint32_t>(task.clipped.size());
   task.primitives.push_back(facets);
   task.whole.insert(task.whole.end(), added.whole.begin(), added.whole.end());
+  task.sliced.insert(task.sliced.end(), added.sliced.begin(), added.sliced.end());
   for (ClippedFacet facet : added.clipped) {
     facet.first_corner += static_cast<std::uint32_t>(task.corners.size());
     task.clipped.push_back(facet);

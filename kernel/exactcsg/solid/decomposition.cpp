@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <boost/container/small_vector.hpp>
 #include <boost/container/static_vector.hpp>
 
 #include "exactcsg/csg/prune.hpp"
@@ -34,31 +35,21 @@ constexpr std::size_t inseparable_planes = 3;
 // Where a facet is with respect to a wall.
 enum class WallSide : unsigned char { Below, Above, Both, Within };
 
-// signs: of all corners, appended.
+// signs: of all corners.
 WallSide exact_wall_side(const Geometry& geometry, const CornerView& corners,
                          const Division& division, std::vector<Sign>& signs,
                          TierStatistics& statistics) {
-  const std::size_t first = signs.size();
-  signs.resize(first + corners.size());
-  bool below = false;
-  bool above = false;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const auto [value, error] = corners.coordinate(i, division.axis);
-    const double difference = value - division.position;
-    // The filter of compare_coordinate, without the vertex.
-    if (std::abs(difference) > error * (1 + 0x1p-50)) {
-      signs[first + i] = difference > 0 ? Sign::Positive : Sign::Negative;
-      statistics.record(Tier::Double, false);
-    } else {
-      signs[first + i] = geometry.compare_coordinate(corners.vertex(i), division.axis,
-                                                     division.position, statistics);
-    }
-    below |= signs[first + i] == Sign::Negative;
-    above |= signs[first + i] == Sign::Positive;
+  switch (wall_signs(geometry, corners, division.axis, division.position, signs, statistics)) {
+    case PlaneSplit::AllNegative:
+      return WallSide::Below;
+    case PlaneSplit::AllPositive:
+      return WallSide::Above;
+    case PlaneSplit::Both:
+      return WallSide::Both;
+    case PlaneSplit::InPlane:
+      break;
   }
-  if (below && above) return WallSide::Both;
-  if (below) return WallSide::Below;
-  return above ? WallSide::Above : WallSide::Within;
+  return WallSide::Within;
 }
 
 // As far as the bounds tell; Both: they do not.
@@ -70,6 +61,92 @@ WallSide wall_side(const Range& bounds, const Division& division) {
 
 bool reaches(WallSide side, WallSide child) { return side == child || side == WallSide::Both; }
 
+// A convex polygon seen along an axis, in doubles with a bound of their errors.
+class FlatPolygon {
+ public:
+  using Point = std::array<double, 2>;
+  enum class Place : unsigned char { Inside, Outside, Unknown };
+
+  FlatPolygon(const CornerView& corners, Axis first, Axis second) {
+    points_.reserve(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto [x, error] = corners.coordinate(i, first);
+      points_.push_back({x, corners.coordinate(i, second).value});
+      error_ = std::max(error_, error);
+    }
+  }
+
+  // Of the open polygon; outside is not on its rim.
+  Place place_of(const Point& point) const {
+    bool any_left = false;
+    bool any_right = false;
+    bool any_unknown = false;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Sign side = side_of(i, point);
+      any_left |= side == Sign::Positive;
+      any_right |= side == Sign::Negative;
+      any_unknown |= side == Sign::Zero;
+    }
+    if (any_left && any_right) return Place::Outside;
+    return any_unknown ? Place::Unknown : Place::Inside;
+  }
+
+  // Surely. axis: 0 or 1 of the two
+  bool is_between(std::size_t i, std::size_t axis, double lower, double upper) const {
+    const double margin = error_ * (1 + 0x1p-50);
+    return points_[i][axis] - lower > margin && upper - points_[i][axis] > margin;
+  }
+
+  // A side's line surely separates it from a rectangle.
+  bool is_off(const Range& first, const Range& second) const {
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Sign side = side_of(i, {first.lower, second.lower});
+      if (side == Sign::Zero || side_of(i, {first.lower, second.upper}) != side ||
+          side_of(i, {first.upper, second.lower}) != side ||
+          side_of(i, {first.upper, second.upper}) != side) {
+        continue;
+      }
+      for (const Point& corner : points_) {
+        if (side_of(i, corner) == -side) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  // Of the line from corner i to the next; zero: it may be on it. The point may be as far off as
+  // the corners. With e the error of coordinates and u the unit roundoff, a difference d is off by
+  // at most 2 e + u |d|, a product of two by the sum of each operand times the other's error and
+  // the product of both errors, and products and their difference are rounded.
+  Sign side_of(std::size_t i, const Point& point) const {
+    const Point& from = points_[i];
+    const Point& to = points_[i + 1 == points_.size() ? 0 : i + 1];
+    const double along_x = to[0] - from[0];
+    const double along_y = to[1] - from[1];
+    const double x = point[0] - from[0];
+    const double y = point[1] - from[1];
+    const double left = along_x * y;
+    const double right = along_y * x;
+    const double lengths = std::fabs(along_x) + std::fabs(along_y) + std::fabs(x) + std::fabs(y);
+    const double bound = error_ * (3 * lengths + 8 * error_) +
+                         0x1p-50 * (std::fabs(left) + std::fabs(right)) + 0x1p-1000;
+    const double value = left - right;
+    return value > bound ? Sign::Positive : value < -bound ? Sign::Negative : Sign::Zero;
+  }
+
+  boost::container::small_vector<Point, 8> points_;
+  double error_ = 0;
+};
+
+// What a division does to a facet, or to the part of it that the cell has.
+struct Fate {
+  enum class Part : unsigned char { AsItIs, Sliced, Clipped };
+  WallSide side = WallSide::Both;
+  Part part = Part::AsItIs;  // of what a child has
+
+  bool is_cut() const { return side == WallSide::Both && part == Part::Clipped; }
+};
+
 }  // namespace
 
 // Indexed by primitive; reset after use.
@@ -79,8 +156,12 @@ struct Decomposition::Scratch {
   std::vector<Membership> status;
   std::vector<unsigned char> in_tree;  // a bit for either child
   csg::PruneScratch<PrunedTree> prune;
-  std::vector<WallSide> sides;
+  std::vector<Fate> fates;
   std::vector<Sign> signs;  // of the corners of facets that are cut
+  std::vector<Sign> signs_of_one;
+  Slicer slicer;
+  std::vector<Corner> cut_slices;  // the corners of slices that are clipped facets from now on
+  std::vector<std::uint32_t> cut_slice_sizes;
 };
 
 struct Decomposition::ScratchPerThread : PerThread<Scratch> {
@@ -115,10 +196,15 @@ class Decomposition::Divider {
   // Where the facets of one primitive are.
   struct PrimitiveSides {
     WallSide side = WallSide::Within;  // of all; Both: of some only, or unknown
-    std::size_t first = 0;       // of its facets' in Scratch::sides, if they are not on one side
-    std::size_t first_sign = 0;  // likewise in Scratch::signs
+    // Of its facets' in the scratch memory, if they are not on one side.
+    std::size_t first_fate = 0;
+    std::size_t first_sign = 0;
+    std::size_t first_slice_corner = 0;
+    std::size_t first_slice_size = 0;
     std::array<std::uint32_t, 2> counts{};  // that reach each child
-    // Of these, facets that will be clipped ones there, and how many corners they have at most.
+    // Of these, facets that will be sliced or clipped ones there, and how many corners the latter
+    // have at most.
+    std::array<std::uint32_t, 2> sliced_counts{};
     std::array<std::uint32_t, 2> clipped_counts{};
     std::array<std::uint32_t, 2> corner_counts{};
   };
@@ -130,8 +216,10 @@ class Decomposition::Divider {
   const Range& bounds_of(FacetIndex whole) const { return scene_.bounds.facets[axis_][whole]; }
 
   void find_sides() {
-    scratch_.sides.clear();
+    scratch_.fates.clear();
     scratch_.signs.clear();
+    scratch_.cut_slices.clear();
+    scratch_.cut_slice_sizes.clear();
     primitive_sides_.reserve(task_.primitives.size());
     for (const PrimitiveFacets& facets : task_.primitives) {
       primitive_sides_.push_back(sides_of(facets));
@@ -146,47 +234,156 @@ class Decomposition::Divider {
     if (result.side != WallSide::Both) {
       const std::size_t child = result.side == WallSide::Above ? 1 : 0;
       result.counts[child] = count;
+      result.sliced_counts[child] = facets.sliced_count;
       result.clipped_counts[child] = facets.clipped_count;
       for (const ClippedFacet& facet : task_.clipped_of(facets)) {
         result.corner_counts[child] += facet.corner_count;
       }
       return result;
     }
-    result.first = scratch_.sides.size();
+    result.first_fate = scratch_.fates.size();
     result.first_sign = scratch_.signs.size();
+    result.first_slice_corner = scratch_.cut_slices.size();
+    result.first_slice_size = scratch_.cut_slice_sizes.size();
     // A cut adds a corner to a part at most.
-    const auto add = [&](WallSide side, bool is_clipped, std::size_t corner_count) {
-      scratch_.sides.push_back(side);
-      const bool is_cut = side == WallSide::Both;
+    const auto add = [&](const Fate& fate, Fate::Part present, std::size_t corner_count) {
+      scratch_.fates.push_back(fate);
+      const Fate::Part part = fate.part == Fate::Part::AsItIs ? present : fate.part;
       for (std::size_t child = 0; child < 2; ++child) {
-        if (!reaches(side, side_of_child(child))) continue;
+        if (!reaches(fate.side, side_of_child(child))) continue;
         ++result.counts[child];
-        if (!is_clipped && !is_cut) continue;
+        if (part == Fate::Part::Sliced) ++result.sliced_counts[child];
+        if (part != Fate::Part::Clipped) continue;
         ++result.clipped_counts[child];
-        result.corner_counts[child] += static_cast<std::uint32_t>(corner_count) + (is_cut ? 1 : 0);
+        result.corner_counts[child] +=
+            static_cast<std::uint32_t>(corner_count) + (fate.is_cut() ? 1 : 0);
       }
     };
+    const bool may_slice =
+        scene_.primitives[facets.primitive].convex && is_bounded(facets.primitive);
     for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
       const FacetIndex facet = task_.whole_facet(scene_, facets, i);
-      const WallSide side = wall_side(bounds_of(facet), division_);
-      add(side == WallSide::Both ? exact_side(scene_.corners_of(facet)) : side, false,
-          scene_.facets[facet].corner_count);
+      Fate fate{wall_side(bounds_of(facet), division_)};
+      if (fate.side == WallSide::Both) {
+        fate = exact_fate(scene_.corners_of(facet),
+                          may_slice && is_short(facet) && is_inside_along_others(facet));
+      }
+      add(fate, Fate::Part::AsItIs, scene_.facets[facet].corner_count);
+    }
+    for (const SlicedFacet& facet : task_.sliced_of(facets)) {
+      const Fate fate = fate_of(facet);
+      const bool is_clipped = fate.part == Fate::Part::Clipped;
+      add(fate, Fate::Part::Sliced, is_clipped ? scratch_.cut_slice_sizes.back() : 0);
     }
     for (const ClippedFacet& facet : task_.clipped_of(facets)) {
-      const WallSide side = wall_side(facet.bounds[axis_], division_);
-      add(side == WallSide::Both ? exact_side(task_.corners_of(facet)) : side, true,
-          facet.corner_count);
+      Fate fate{wall_side(facet.bounds[axis_], division_)};
+      if (fate.side == WallSide::Both) fate = exact_fate(task_.corners_of(facet), false);
+      add(fate, Fate::Part::Clipped, facet.corner_count);
     }
     return result;
   }
 
-  // Keeps the signs if the wall cuts the facet.
-  WallSide exact_side(const CornerView& corners) {
-    const std::size_t before = scratch_.signs.size();
+  // Of a facet that is long beside the cells, the part in a cell says more than the whole does.
+  bool is_short(FacetIndex facet) const {
+    const Range& bounds = bounds_of(facet);
+    return 4 * (bounds.upper - bounds.lower) < task_.cell.upper[axis_] - task_.cell.lower[axis_];
+  }
+
+  // LAW decomposition.3.
+  bool is_inside_along_others(FacetIndex facet) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis == axis_) continue;
+      const Range& bounds = scene_.bounds.facets[axis][facet];
+      if (!(bounds.lower > task_.cell.lower[axis] && bounds.upper < task_.cell.upper[axis])) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // Keeps the signs if the wall cuts the facet now.
+  Fate exact_fate(const CornerView& corners, bool may_slice) {
+    std::vector<Sign>& signs = scratch_.signs_of_one;
     const WallSide side =
-        exact_wall_side(scene_.geometry, corners, division_, scratch_.signs, task_.statistics);
-    if (side != WallSide::Both) scratch_.signs.resize(before);
-    return side;
+        exact_wall_side(scene_.geometry, corners, division_, signs, task_.statistics);
+    if (side != WallSide::Both) return {side};
+    if (may_slice && std::find(signs.begin(), signs.end(), Sign::Zero) == signs.end()) {
+      return {side, Fate::Part::Sliced};
+    }
+    scratch_.signs.insert(scratch_.signs.end(), signs.begin(), signs.end());
+    return {side, Fate::Part::Clipped};
+  }
+
+  Fate fate_of(const SlicedFacet& facet) {
+    const CornerView corners = scene_.corners_of(facet.facet);
+    const WallSide side = wall_side(bounds_of(facet.facet), division_);
+    if (side != WallSide::Both) return {side};
+    if (is_short(facet.facet)) {
+      if (const std::optional<Fate> fate = fate_of_slice(facet, corners)) return *fate;
+    }
+    std::vector<Corner>& cut = scratch_.cut_slices;
+    const std::size_t first = cut.size();
+    scratch_.slicer.append(scene_.geometry, corners, scene_.facets[facet.facet].plane.plane,
+                           slice_of(task_.cell, facet.walls), cut);
+    scratch_.cut_slice_sizes.push_back(static_cast<std::uint32_t>(cut.size() - first));
+    return {exact_fate(std::span(cut).subspan(first), false).side, Fate::Part::Clipped};
+  }
+
+  // Unless its part in the cell has to be cut out.
+  std::optional<Fate> fate_of_slice(const SlicedFacet& facet, const CornerView& corners) {
+    boost::container::static_vector<std::size_t, 3> others;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis != axis_ && facet.walls.across(axis)) others.push_back(axis);
+    }
+    if (others.size() > 1) return std::nullopt;
+    std::vector<Sign>& signs = scratch_.signs_of_one;
+    const WallSide side =
+        exact_wall_side(scene_.geometry, corners, division_, signs, task_.statistics);
+    if (side != WallSide::Both) {
+      if (facet.walls.across(axis_)) return Fate{side};
+      return std::nullopt;
+    }
+    if (std::find(signs.begin(), signs.end(), Sign::Zero) != signs.end()) return std::nullopt;
+    if (others.empty()) return Fate{side, Fate::Part::Sliced};
+    const std::optional<WallSide> parts = side_of_parts(facet, corners, others.front());
+    if (!parts) return std::nullopt;
+    return Fate{*parts, Fate::Part::Sliced};
+  }
+
+  // Which children surely have a part of the facet in common with the task, or surely not: seen
+  // along the third axis, where no wall cuts it. nullopt: not known, or a side of the facet may
+  // pass through the point where the wall meets one of the walls across the other axis.
+  std::optional<WallSide> side_of_parts(const SlicedFacet& facet, const CornerView& corners,
+                                        std::size_t other) {
+    const FlatPolygon flat(corners, static_cast<Axis>(other), division_.axis);
+    const Cell& cell = task_.cell;
+    bool is_crossing_inside = false;
+    for (const bool upper : {false, true}) {
+      if (!(upper ? facet.walls.upper(other) : facet.walls.lower(other))) continue;
+      const double wall = upper ? cell.upper[other] : cell.lower[other];
+      const FlatPolygon::Place place = flat.place_of({wall, division_.position});
+      if (place == FlatPolygon::Place::Unknown) return std::nullopt;
+      is_crossing_inside |= place == FlatPolygon::Place::Inside;
+    }
+    if (is_crossing_inside) return WallSide::Both;
+    std::array<bool, 2> has_corner{};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (flat.is_between(i, 0, cell.lower[other], cell.upper[other]) &&
+          flat.is_between(i, 1, cell.lower[axis_], cell.upper[axis_])) {
+        has_corner[scratch_.signs_of_one[i] == Sign::Negative ? 0 : 1] = true;
+      }
+    }
+    if (has_corner[0] && has_corner[1]) return WallSide::Both;
+    if (!has_corner[0] && !has_corner[1]) return std::nullopt;
+    const Range& along = scene_.bounds.facets[other][facet.facet];
+    const Range& across = bounds_of(facet.facet);
+    const Range between{std::max(along.lower, cell.lower[other]),
+                        std::min(along.upper, cell.upper[other])};
+    const Range beyond = has_corner[0]
+                             ? Range{division_.position, std::min(across.upper, cell.upper[axis_])}
+                             : Range{std::max(across.lower, cell.lower[axis_]), division_.position};
+    if (!flat.is_off(between, beyond)) return std::nullopt;
+    return has_corner[0] ? WallSide::Below : WallSide::Above;
   }
 
   void prepare_child(std::size_t which) {
@@ -224,6 +421,7 @@ class Decomposition::Divider {
     CellTask& child = children_[which];
     std::size_t primitives = 0;
     std::size_t whole = 0;
+    std::size_t sliced = 0;
     std::size_t clipped = 0;
     std::size_t corners = 0;
     for (std::size_t i = 0; i < task_.primitives.size(); ++i) {
@@ -234,11 +432,13 @@ class Decomposition::Divider {
       if (!(facets.all && primitive_sides_[i].side != WallSide::Both)) {
         whole += std::min(count, facets.whole_count);
       }
+      sliced += primitive_sides_[i].sliced_counts[which];
       clipped += primitive_sides_[i].clipped_counts[which];
       corners += primitive_sides_[i].corner_counts[which];
     }
     child.primitives.reserve(primitives);
     child.whole.reserve(whole);
+    child.sliced.reserve(sliced);
     child.clipped.reserve(clipped);
     child.corners.reserve(corners);
   }
@@ -268,6 +468,9 @@ class Decomposition::Divider {
     };
     for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
       if (is_outside(task_.whole_facet(scene_, facets, i))) return Membership::Out;
+    }
+    for (const SlicedFacet& facet : task_.sliced_of(facets)) {
+      if (is_outside(facet.facet)) return Membership::Out;
     }
     for (const ClippedFacet& facet : task_.clipped_of(facets)) {
       if (is_outside(facet.facet)) return Membership::Out;
@@ -324,6 +527,7 @@ class Decomposition::Divider {
   static void begin_primitive(CellTask& child, const PrimitiveFacets& facets) {
     child.primitives.push_back({facets.primitive, false,
                                 static_cast<std::uint32_t>(child.whole.size()), 0,
+                                static_cast<std::uint32_t>(child.sliced.size()), 0,
                                 static_cast<std::uint32_t>(child.clipped.size()), 0});
   }
 
@@ -332,6 +536,7 @@ class Decomposition::Divider {
     if (!facets.all) {
       facets.whole_count = static_cast<std::uint32_t>(child.whole.size()) - facets.first_whole;
     }
+    facets.sliced_count = static_cast<std::uint32_t>(child.sliced.size()) - facets.first_sliced;
     facets.clipped_count = static_cast<std::uint32_t>(child.clipped.size()) - facets.first_clipped;
     child.facet_count += facets.count();
   }
@@ -344,6 +549,8 @@ class Decomposition::Divider {
     }
     const auto first = task_.whole.begin() + facets.first_whole;
     child.whole.insert(child.whole.end(), first, first + facets.whole_count);
+    const std::span<const SlicedFacet> sliced = task_.sliced_of(facets);
+    child.sliced.insert(child.sliced.end(), sliced.begin(), sliced.end());
     for (const ClippedFacet& facet : task_.clipped_of(facets)) take(child, facet);
   }
 
@@ -355,24 +562,80 @@ class Decomposition::Divider {
   }
 
   void distribute_facets(const PrimitiveFacets& facets, const PrimitiveSides& sides) {
-    const WallSide* side = scratch_.sides.data() + sides.first;
+    const Fate* fate = scratch_.fates.data() + sides.first_fate;
     next_sign_ = sides.first_sign;
-    for (std::uint32_t i = 0; i < facets.whole_count; ++i, ++side) {
+    for (std::uint32_t i = 0; i < facets.whole_count; ++i, ++fate) {
       const FacetIndex facet = task_.whole_facet(scene_, facets, i);
-      if (*side == WallSide::Both) {
+      if (fate->part == Fate::Part::Sliced) {
+        slice({facet, {}, facet_share::whole}, WallSide::Both);
+      } else if (fate->is_cut()) {
         cut(facet, facet_share::whole, scene_.corners_of(facet));
-      } else if (const std::size_t which = *side == WallSide::Below ? 0 : 1; open_[which]) {
+      } else if (const std::size_t which = child_on(fate->side); open_[which]) {
         children_[which].whole.push_back(facet);
       }
     }
+    distribute_slices(facets, sides, fate);
     for (const ClippedFacet& facet : task_.clipped_of(facets)) {
-      if (*side == WallSide::Both) {
+      if (fate->is_cut()) {
         cut(facet.facet, facet.share, task_.corners_of(facet));
-      } else if (const std::size_t which = *side == WallSide::Below ? 0 : 1; open_[which]) {
+      } else if (const std::size_t which = child_on(fate->side); open_[which]) {
         take(children_[which], facet);
       }
-      ++side;
+      ++fate;
     }
+  }
+
+  static std::size_t child_on(WallSide side) { return side == WallSide::Below ? 0 : 1; }
+
+  // fate: of the first one; past that of the last one afterwards.
+  void distribute_slices(const PrimitiveFacets& facets, const PrimitiveSides& sides,
+                         const Fate*& fate) {
+    std::size_t first_corner = sides.first_slice_corner;
+    const std::uint32_t* size = scratch_.cut_slice_sizes.data() + sides.first_slice_size;
+    for (const SlicedFacet& facet : task_.sliced_of(facets)) {
+      const std::size_t which = child_on(fate->side);
+      if (fate->part == Fate::Part::Sliced) {
+        slice(facet, fate->side);
+      } else if (fate->part == Fate::Part::Clipped) {
+        const auto corners =
+            std::span<const Corner>(scratch_.cut_slices).subspan(first_corner, *size);
+        first_corner += *size++;
+        if (fate->is_cut()) {
+          cut(facet.facet, facet.share, corners);
+        } else if (open_[which]) {
+          CellTask& child = children_[which];
+          ClippedFacet part = begin_part(child, facet.facet, facet.share);
+          child.corners.insert(child.corners.end(), corners.begin(), corners.end());
+          end_part(child, part);
+        }
+      } else if (open_[which]) {
+        children_[which].sliced.push_back(facet);
+      }
+      ++fate;
+    }
+  }
+
+  // The wall cuts the facet, and the part that the task has if both children get one.
+  void slice(SlicedFacet facet, WallSide side) {
+    if (side == WallSide::Both) facet.share /= 2;
+    if (open_[0] && reaches(side, WallSide::Below)) {
+      children_[0].sliced.push_back(facet);
+      children_[0].sliced.back().walls.add_upper(axis_);
+    }
+    if (open_[1] && reaches(side, WallSide::Above)) {
+      children_[1].sliced.push_back(facet);
+      children_[1].sliced.back().walls.add_lower(axis_);
+    }
+  }
+
+  static ClippedFacet begin_part(const CellTask& child, FacetIndex facet, std::uint64_t share) {
+    return {facet, static_cast<std::uint32_t>(child.corners.size()), 0, share, {}};
+  }
+
+  static void end_part(CellTask& child, ClippedFacet& part) {
+    part.corner_count = static_cast<std::uint32_t>(child.corners.size()) - part.first_corner;
+    widen(part.bounds, std::span(child.corners).subspan(part.first_corner));
+    child.clipped.push_back(part);
   }
 
   void cut(FacetIndex facet, std::uint64_t share, const CornerView& corners) {
@@ -383,11 +646,9 @@ class Decomposition::Divider {
     for (std::size_t which = 0; which < 2; ++which) {
       if (!open_[which]) continue;
       CellTask& child = children_[which];
-      ClippedFacet part{facet, static_cast<std::uint32_t>(child.corners.size()), 0, share / 2, {}};
+      ClippedFacet part = begin_part(child, facet, share / 2);
       cut.append_part(corners, signs, which == 0 ? Sign::Negative : Sign::Positive, child.corners);
-      part.corner_count = static_cast<std::uint32_t>(child.corners.size()) - part.first_corner;
-      widen(part.bounds, std::span(child.corners).subspan(part.first_corner));
-      child.clipped.push_back(part);
+      end_part(child, part);
     }
   }
 
@@ -435,6 +696,9 @@ bool Decomposition::inseparable(const CellTask& task) const {
     for (std::uint32_t i = 0; i < facets.whole_count; ++i) {
       if (is_one_too_many(task.whole_facet(scene_, facets, i))) return false;
     }
+    for (const SlicedFacet& facet : task.sliced_of(facets)) {
+      if (is_one_too_many(facet.facet)) return false;
+    }
     for (const ClippedFacet& facet : task.clipped_of(facets)) {
       if (is_one_too_many(facet.facet)) return false;
     }
@@ -460,7 +724,7 @@ CellTask Decomposition::task_of(const Cell& cell, const PrunedTree& tree) const 
   primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
   for (const PrimitiveIndex primitive : primitives) {
     const std::uint32_t count = scene_.primitives[primitive].facet_count;
-    task.primitives.push_back({primitive, true, 0, count, 0, 0});
+    task.primitives.push_back({primitive, true, 0, count, 0, 0, 0, 0});
     task.facet_count += count;
   }
   return task;
@@ -488,8 +752,11 @@ class FacetSample {
         if (i < facets.whole_count) {
           const FacetIndex facet = task.whole_facet(scene, facets, i);
           for (std::size_t axis = 0; axis < 3; ++axis) set(axis, scene.bounds.facets[axis][facet]);
+        } else if (i < facets.whole_count + facets.sliced_count) {
+          add(scene, task.cell, task.sliced_of(facets)[i - facets.whole_count]);
         } else {
-          const ClippedFacet& facet = task.clipped_of(facets)[i - facets.whole_count];
+          const ClippedFacet& facet =
+              task.clipped_of(facets)[i - facets.whole_count - facets.sliced_count];
           for (std::size_t axis = 0; axis < 3; ++axis) set(axis, facet.bounds[axis]);
         }
         if (++count_ == sample_size) return;
@@ -511,6 +778,14 @@ class FacetSample {
     const double place = static_cast<double>(noise_ >> 40U) * 0x1p-24;
     const double offset = stride_ > 1 ? place : 0;
     return static_cast<std::size_t>((static_cast<double>(count_) + offset) * stride_);
+  }
+
+  void add(const Scene& scene, const Cell& cell, const SlicedFacet& facet) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Range& bounds = scene.bounds.facets[axis][facet.facet];
+      set(axis,
+          {std::max(bounds.lower, cell.lower[axis]), std::min(bounds.upper, cell.upper[axis])});
+    }
   }
 
   void set(std::size_t axis, const Range& bounds) {
@@ -636,6 +911,11 @@ bool Decomposition::has_facet_in_wall(const CellTask& task, const Division& divi
       if (wall_side(bounds, division) != WallSide::Both) continue;
       if (is_in_wall(bounds, scene_.corners_of(facet))) return true;
     }
+    for (const SlicedFacet& facet : task.sliced_of(facets)) {
+      if (is_in_wall(scene_.bounds.facets[axis][facet.facet], scene_.corners_of(facet.facet))) {
+        return true;
+      }
+    }
     for (const ClippedFacet& facet : task.clipped_of(facets)) {
       if (is_in_wall(facet.bounds[axis], task.corners_of(facet))) return true;
     }
@@ -656,13 +936,22 @@ void Decomposition::collect_facets(const CellTask& task, std::vector<CellFacet>&
       result.push_back({facets.primitive,
                         facet,
                         facet_share::whole,
-                        {scene_.facets[facet].plane, scene_.corners_of(facet)}});
+                        {scene_.facets[facet].plane, scene_.corners_of(facet)},
+                        {}});
+    }
+    for (const SlicedFacet& facet : task.sliced_of(facets)) {
+      result.push_back({facets.primitive,
+                        facet.facet,
+                        facet.share,
+                        {scene_.facets[facet.facet].plane, scene_.corners_of(facet.facet)},
+                        facet.walls});
     }
     for (const ClippedFacet& facet : task.clipped_of(facets)) {
       result.push_back({facets.primitive,
                         facet.facet,
                         facet.share,
-                        {scene_.facets[facet.facet].plane, task.corners_of(facet)}});
+                        {scene_.facets[facet.facet].plane, task.corners_of(facet)},
+                        {}});
     }
   }
 }

@@ -30,22 +30,37 @@ struct ClippedFacet {
   std::array<Range, 3> bounds;
 };
 
+// The part in the cell of a facet of a bounded convex primitive that reaches beyond the cell across
+// one or two axes. It is not cut before that matters: mostly no other primitive does, and the parts
+// of a facet are put together again.
+// LAW decomposition.3  the facet's bounds are inside the cell, off its walls, along the axes
+// without a wall that cuts it; no corner of the facet lies in a wall that cuts it, and none of its
+// sides meets two such walls in one point.
+struct SlicedFacet {
+  FacetIndex facet = 0;
+  CutWalls walls;
+  std::uint64_t share = facet_share::whole;
+};
+
 // The facets of one primitive that reach a cell.
 struct PrimitiveFacets {
   PrimitiveIndex primitive = 0;
   bool all = false;  // all of them, whole, and not listed
   std::uint32_t first_whole = 0;
   std::uint32_t whole_count = 0;  // also where they are not listed
+  std::uint32_t first_sliced = 0;
+  std::uint32_t sliced_count = 0;
   std::uint32_t first_clipped = 0;
   std::uint32_t clipped_count = 0;
 
-  std::size_t count() const { return std::size_t{whole_count} + clipped_count; }
+  std::size_t count() const { return std::size_t{whole_count} + sliced_count + clipped_count; }
 };
 
 struct CellTask {
   Cell cell;
   std::vector<PrimitiveFacets> primitives;  // each with a facet at least
   std::vector<FacetIndex> whole;            // facets of one primitive are adjacent
+  std::vector<SlicedFacet> sliced;          // likewise
   std::vector<ClippedFacet> clipped;        // likewise
   std::vector<Corner> corners;              // of the clipped ones
   std::size_t facet_count = 0;
@@ -58,6 +73,9 @@ struct CellTask {
   FacetIndex whole_facet(const Scene& scene, const PrimitiveFacets& facets, std::uint32_t i) const {
     return facets.all ? scene.primitives[facets.primitive].first_facet + i
                       : whole[facets.first_whole + i];
+  }
+  std::span<const SlicedFacet> sliced_of(const PrimitiveFacets& facets) const {
+    return std::span(sliced).subspan(facets.first_sliced, facets.sliced_count);
   }
   std::span<const ClippedFacet> clipped_of(const PrimitiveFacets& facets) const {
     return std::span(clipped).subspan(facets.first_clipped, facets.clipped_count);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace exactcsg {
 
@@ -93,10 +94,45 @@ void PieceCollector::begin(OrientedPlaneRef outward, signed char corner_sense, F
 }
 
 void PieceCollector::add_corner(const Vertex& vertex, PlaneRef side_plane) {
+  append_corner(vertex, side_plane);
+  ++buffer_.pieces.back().corner_count;
+}
+
+void PieceCollector::append_corner(const Vertex& vertex, PlaneRef side_plane) {
   const std::uint32_t number =
       vertex.is_point ? static_cast<std::uint32_t>(vertex.point) : place_of(vertex);
   buffer_.corners.push_back({side_plane, number, vertex.is_point});
-  ++buffer_.pieces.back().corner_count;
+}
+
+void PieceCollector::add_slice(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
+                               std::uint64_t share, const Slice& slice) {
+  begin(outward, corner_sense, facet, share);
+  buffer_.pieces.back().is_slice = true;
+  for (const Slice::Wall& wall : slice.walls()) {
+    buffer_.corners.push_back({wall.plane, wall.kept == Sign::Positive ? 1U : 0U, true});
+    ++buffer_.pieces.back().corner_count;
+  }
+}
+
+void PieceCollector::resume(PieceBuffer buffer) {
+  discard();
+  buffer_ = std::move(buffer);
+  if (buffer_.meeting_points.size() * 2 >= slots_.size()) {
+    enlarge_slots();
+    return;
+  }
+  for (std::uint32_t place = 0; place < buffer_.meeting_points.size(); ++place) {
+    slot_of(buffer_.meeting_points[place]) = {place, round_};
+  }
+}
+
+void PieceCollector::cut_slice(std::size_t piece, const CornerView& polygon) {
+  BoundaryPiece& cut = buffer_.pieces[piece];
+  cut.is_slice = false;
+  cut.first_corner = static_cast<std::uint32_t>(buffer_.corners.size());
+  cut.corner_count = static_cast<std::uint32_t>(polygon.size());
+  polygon.for_each_vertex(
+      [&](std::size_t i, const Vertex& vertex) { append_corner(vertex, polygon.side_plane(i)); });
 }
 
 PieceCollector::Mark PieceCollector::mark() const {
@@ -156,7 +192,9 @@ PieceCollector::Slot& PieceCollector::slot_of(const Vertex& meeting_point) {
 }
 
 void PieceCollector::enlarge_slots() {
-  slots_.assign(std::max<std::size_t>(slots_.size() * 2, 64), Slot{});
+  std::size_t size = std::max<std::size_t>(slots_.size() * 2, 64);
+  while (buffer_.meeting_points.size() * 2 >= size) size *= 2;
+  slots_.assign(size, Slot{});
   for (std::uint32_t place = 0; place < buffer_.meeting_points.size(); ++place) {
     slot_of(buffer_.meeting_points[place]) = {place, round_};
   }

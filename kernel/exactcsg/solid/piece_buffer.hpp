@@ -23,6 +23,7 @@
 #include <span>
 #include <vector>
 
+#include "exactcsg/solid/polygon.hpp"
 #include "exactcsg/solid/scene.hpp"
 
 namespace exactcsg {
@@ -46,6 +47,9 @@ struct BoundaryPiece {
   bool in_general_position = false;
   // The corners bound a hole in the piece before this one, clockwise seen from its front.
   bool is_hole = false;
+  // The part of the facet on one side each of some walls, not cut yet: instead of corners there are
+  // the walls, as side planes, with 1 as the vertex if what is above is kept.
+  bool is_slice = false;
 };
 
 struct PieceCorner {
@@ -62,6 +66,14 @@ struct PieceBuffer {
   // REQUIRES the piece is not a whole facet
   std::span<const PieceCorner> corners_of(const BoundaryPiece& piece) const {
     return std::span(corners).subspan(piece.first_corner, piece.corner_count);
+  }
+  // REQUIRES piece.is_slice
+  Slice slice_of(const BoundaryPiece& piece) const {
+    Slice slice;
+    for (const PieceCorner& wall : corners_of(piece)) {
+      slice.add({wall.side_plane, wall.vertex == 1 ? Sign::Positive : Sign::Negative});
+    }
+    return slice;
   }
 };
 
@@ -84,6 +96,8 @@ class PieceCollector {
   void begin(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
              std::uint64_t share, bool is_hole = false);
   void add_corner(const Vertex& vertex, PlaneRef side_plane);
+  void add_slice(OrientedPlaneRef outward, signed char corner_sense, FacetIndex facet,
+                 std::uint64_t share, const Slice& slice);
 
   struct Mark {
     std::size_t pieces;
@@ -100,12 +114,19 @@ class PieceCollector {
   // Forgets it: what a cell added before an error or a cancellation ended it.
   void discard();
 
+  // Goes on with a buffer in place of what was added.
+  void resume(PieceBuffer buffer);
+  const PieceBuffer& buffer() const { return buffer_; }
+  // Gives a piece that is a slice its corners.
+  void cut_slice(std::size_t piece, const CornerView& polygon);
+
  private:
   struct Slot {
     std::uint32_t place = 0;  // among the meeting points
     std::uint32_t round = 0;  // in use if it is the present one
   };
 
+  void append_corner(const Vertex& vertex, PlaneRef side_plane);
   std::uint32_t place_of(const Vertex& meeting_point);
   Slot& slot_of(const Vertex& meeting_point);
   void enlarge_slots();

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <utility>
 
 #include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/solid/per_thread.hpp"
+#include "exactcsg/solid/polygon.hpp"
 
 namespace exactcsg {
 
@@ -53,6 +56,7 @@ void restore(PieceBuffer& buffer, std::uint32_t number, std::vector<FacetParts>&
     if (facet.first_buffer != number || facet.restored != 0) return true;
     facet.restored = 1;
     piece.share = facet_share::whole;
+    piece.is_slice = false;
     piece.in_general_position = facet.touched == 0;
     return false;
   };
@@ -60,16 +64,41 @@ void restore(PieceBuffer& buffer, std::uint32_t number, std::vector<FacetParts>&
                       buffer.pieces.end());
 }
 
+// For one thread.
+struct SliceCutter {
+  PieceCollector collector;
+  Slicer slicer;
+  std::vector<Corner> corners;
+
+  // What is left of slices are parts of facets of which other parts are missing.
+  const PieceBuffer& cut(const Scene& scene, PieceBuffer&& buffer) {
+    collector.resume(std::move(buffer));
+    for (std::size_t i = 0; i < collector.buffer().pieces.size(); ++i) {
+      const BoundaryPiece& piece = collector.buffer().pieces[i];
+      if (!piece.is_slice) continue;
+      corners.clear();
+      slicer.append(scene.geometry, scene.corners_of(piece.facet), piece.plane.plane,
+                    collector.buffer().slice_of(piece), corners);
+      collector.cut_slice(i, corners);
+    }
+    return collector.buffer();
+  }
+};
+
 }  // namespace
 
 void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers, unsigned threads) {
   std::vector<FacetParts> facets;
   resize(threads, facets, scene.facets.size());
+  PerThread<SliceCutter> cutters([] { return SliceCutter(); });
   in_parallel(threads, buffers.size(),
               [&](std::size_t b) { add_parts(buffers[b], static_cast<std::uint32_t>(b), facets); });
   in_parallel(threads, buffers.size(), [&](std::size_t b) {
-    restore(buffers[b], static_cast<std::uint32_t>(b), facets);
-    buffers[b] = compacted(buffers[b]);
+    PieceBuffer& buffer = buffers[b];
+    restore(buffer, static_cast<std::uint32_t>(b), facets);
+    buffer = std::ranges::any_of(buffer.pieces, &BoundaryPiece::is_slice)
+                 ? compacted(cutters.local().cut(scene, std::move(buffer)))
+                 : compacted(buffer);
   });
 }
 

@@ -12,8 +12,9 @@
 namespace exactcsg {
 
 // LAW whole.1  the pieces cover the same points of every oriented plane before and after.
-// Afterwards a piece is the whole facet of the scene, corner by corner, iff its share is `whole`.
-// Buffers hold nothing that no piece needs. COST: O(corners + facets of the scene).
+// Afterwards a piece is the whole facet of the scene, corner by corner, iff its share is `whole`,
+// and none is a slice. Buffers hold nothing that no piece needs. COST: O(corners + facets of the
+// scene).
 void restore_whole_facets(const Scene& scene, std::vector<PieceBuffer>& buffers,
                           unsigned threads = 1);
 
