@@ -116,7 +116,7 @@ struct PreparedPolyhedron {
   }
 };
 
-void list_corners(Kind& kind, unsigned threads) {
+void list_corners(Kind& kind) {
   const std::vector<Facet>& facets = kind.first->facets;
   kind.first_corners.reserve(facets.size() + 1);
   kind.first_corners.push_back(0);
@@ -125,10 +125,10 @@ void list_corners(Kind& kind, unsigned threads) {
     count += facet.size();
     kind.first_corners.push_back(static_cast<std::uint32_t>(count));
   }
-  kind.corners.resize(count);
-  in_parallel_parts(threads, facets.size(), [&](std::size_t f) {
-    std::copy(facets[f].begin(), facets[f].end(), kind.corners.begin() + kind.first_corners[f]);
-  });
+  kind.corners.reserve(count);
+  for (const Facet& facet : facets) {
+    kind.corners.insert(kind.corners.end(), facet.begin(), facet.end());
+  }
 }
 
 // Of every side the first one that walks the same edge the other way. A side has the number of the
@@ -184,12 +184,12 @@ std::vector<std::uint32_t> opposite_sides(const Kind& kind, unsigned threads) {
   return result;
 }
 
-std::vector<std::uint32_t> facets_of_sides(const Kind& kind, unsigned threads) {
-  std::vector<std::uint32_t> result(kind.corners.size());
-  in_parallel_parts(threads, kind.facet_count(), [&](std::size_t f) {
-    std::fill(result.begin() + kind.first_corners[f], result.begin() + kind.first_corners[f + 1],
-              static_cast<std::uint32_t>(f));
-  });
+std::vector<std::uint32_t> facets_of_sides(const Kind& kind) {
+  std::vector<std::uint32_t> result;
+  result.reserve(kind.corners.size());
+  for (std::uint32_t f = 0; f < kind.facet_count(); ++f) {
+    result.resize(kind.first_corners[f + 1], f);
+  }
   return result;
 }
 
@@ -218,7 +218,7 @@ class MeshPlanes {
         threads_(threads),
         polyhedron_(*kind.first),
         opposite_(opposite_sides(kind, threads)),
-        facets_(facets_of_sides(kind, threads)) {}
+        facets_(facets_of_sides(kind)) {}
 
   void find() {
     planes_.resize(kind_.triples.size());
@@ -249,10 +249,9 @@ class MeshPlanes {
     in_parallel_parts(threads_, is_flat_.size(), [&](std::size_t side) {
       if (is_flat_[side] != 0) is_flat_[side] = is_flat(static_cast<std::uint32_t>(side), signs);
     });
-    in_parallel_parts(threads_, is_flat_.size(), [&](std::size_t i) {
-      const auto side = static_cast<std::uint32_t>(i);
+    for (std::uint32_t side = 0; side < is_flat_.size(); ++side) {
       if (was_seen_from_there(side)) is_flat_[side] = is_flat_[opposite_[side]];
-    });
+    }
   }
 
   // all(corner) of every corner of the neighbour that is not the facet's.
@@ -298,28 +297,19 @@ class MeshPlanes {
 
   // Coplanar facets that no neighbours connect keep planes of their own; the Geometry finds them.
   void keep_planes() {
-    std::vector<std::uint32_t>& planes = kind_.facet_planes;
-    planes.resize(kind_.facet_count());
-    in_parallel_parts(threads_, planes.size(), [&](std::size_t f) {
-      planes[f] = facet_with_plane_of(static_cast<std::uint32_t>(f));
-    });
-    std::vector<std::uint32_t> kept;  // the facets whose planes are kept
-    kept.reserve(planes.size());
-    for (std::uint32_t f = 0; f < planes.size(); ++f) {
-      if (planes[f] != f) {
-        planes[f] = planes[planes[f]];
-      } else {
-        planes[f] = static_cast<std::uint32_t>(kept.size());
-        kept.push_back(f);
+    kind_.facet_planes.resize(kind_.facet_count());
+    known_.planes.reserve(kind_.facet_count());
+    std::uint32_t kept = 0;
+    for (std::uint32_t f = 0; f < kind_.facet_count(); ++f) {
+      if (const std::uint32_t other = facet_with_plane_of(f); other != f) {
+        kind_.facet_planes[f] = kind_.facet_planes[other];
+        continue;
       }
+      known_.planes.push_back(std::move(planes_[f]));
+      kind_.triples[kept] = kind_.triples[f];
+      kind_.facet_planes[f] = kept++;
     }
-    std::vector<Triple> triples(kept.size());
-    known_.planes.resize(kept.size());
-    in_parallel_parts(threads_, kept.size(), [&](std::size_t plane) {
-      triples[plane] = kind_.triples[kept[plane]];
-      known_.planes[plane] = std::move(planes_[kept[plane]]);
-    });
-    kind_.triples = std::move(triples);
+    kind_.triples.resize(kept);
   }
 
   void set_side_planes() {
@@ -328,32 +318,21 @@ class MeshPlanes {
       const auto side = static_cast<std::uint32_t>(i);
       if (is_flat_[side] == 0) kind_.side_planes[side] = kind_.facet_planes[neighbour(side)];
     });
-    std::vector<std::uint32_t> across;
-    const auto first_across = static_cast<std::uint32_t>(kind_.triples.size());
     for (std::uint32_t side = 0; side < kind_.side_planes.size(); ++side) {
-      if (is_flat_[side] == 0) continue;
-      if (was_seen_from_there(side)) {
-        kind_.side_planes[side] = kind_.side_planes[opposite_[side]];
-      } else {
-        kind_.side_planes[side] = first_across + static_cast<std::uint32_t>(across.size());
-        across.push_back(side);
-      }
+      if (is_flat_[side] != 0) kind_.side_planes[side] = plane_across(side);
     }
-    kind_.planes_across.resize(across.size());
-    known_.planes.resize(first_across + across.size());
-    in_parallel_parts(threads_, across.size(), [&](std::size_t i) {
-      const PlaneAcross plane = plane_across(across[i]);
-      kind_.planes_across[i] = plane;
-      known_.planes[first_across + i] =
-          prepared_plane(known_.near_point(polyhedron_, plane.from),
-                         known_.near_point(polyhedron_, plane.to), plane.axis);
-    });
   }
 
-  PlaneAcross plane_across(std::uint32_t side) const {
+  std::uint32_t plane_across(std::uint32_t side) {
+    if (was_seen_from_there(side)) return kind_.side_planes[opposite_[side]];
     const std::uint32_t facet = facets_[side];
-    return {kind_.corners[side], kind_.end_of_side(facet, side),
-            steepest_axis(planes_[facet].near)};
+    const std::uint32_t from = kind_.corners[side];
+    const std::uint32_t to = kind_.end_of_side(facet, side);
+    const Axis axis = steepest_axis(planes_[facet].near);
+    known_.planes.push_back(prepared_plane(known_.near_point(polyhedron_, from),
+                                           known_.near_point(polyhedron_, to), axis));
+    kind_.planes_across.push_back({from, to, axis});
+    return kind_.plane_count() - 1;
   }
 
   Kind& kind_;
@@ -368,7 +347,7 @@ class MeshPlanes {
 
 // known: of the kind's first polyhedron. REQUIRES its points; of a mesh the planes are filled in.
 void complete(Kind& kind, PreparedPolyhedron& known, unsigned threads) {
-  list_corners(kind, threads);
+  list_corners(kind);
   kind.triples.resize(kind.facet_count());
   in_parallel_parts(threads, kind.triples.size(), [&](std::size_t f) {
     kind.triples[f] = spanning_triple(*kind.first, known.points, kind.first->facets[f]);
@@ -378,7 +357,7 @@ void complete(Kind& kind, PreparedPolyhedron& known, unsigned threads) {
     return;
   }
   // Neighbours of a convex polytope are not coplanar.
-  const std::vector<std::uint32_t> facets = facets_of_sides(kind, threads);
+  const std::vector<std::uint32_t> facets = facets_of_sides(kind);
   kind.side_planes = opposite_sides(kind, threads);
   for (std::uint32_t& side : kind.side_planes) side = facets[side];
 }
