@@ -40,7 +40,7 @@ constexpr std::size_t few_facets = 1000;
 std::size_t facets_of(const Solid& solid) {
   std::size_t facets = 0;
   csg::for_each_primitive(solid, [&](const Primitive& primitive) {
-    if (const Polyhedron* polyhedron = polyhedron_of(primitive)) {
+    if (const StoredPolyhedron* polyhedron = polyhedron_of(primitive)) {
       facets += polyhedron->facets.size();
     }
   });

@@ -24,7 +24,7 @@ struct Counts {
   std::array<std::uint64_t, 4> operators{};
 
   void add(const Primitive& primitive) {
-    const Polyhedron* polyhedron = polyhedron_of(primitive);
+    const StoredPolyhedron* polyhedron = polyhedron_of(primitive);
     if (polyhedron == nullptr) {
       ++half_spaces;
       ++facets;

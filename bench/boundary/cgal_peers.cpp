@@ -181,7 +181,7 @@ template <class Peer>
 std::vector<typename Peer::Value> leaves_of(const Solid& solid) {
   std::vector<typename Peer::Value> leaves;
   csg::for_each_primitive(solid, [&](const Primitive& primitive) {
-    leaves.push_back(Peer::make(*polyhedron_of(primitive)));
+    leaves.push_back(Peer::make(to_polyhedron(*polyhedron_of(primitive))));
   });
   return leaves;
 }
@@ -246,7 +246,7 @@ void solve_sequence(const std::string& name, std::size_t side, Json& result) {
     const bool unites = i < sequence.united.size();
     const auto& place =
         unites ? sequence.united[i] : sequence.subtracted[i - sequence.united.size()];
-    auto cube = Peer::make(*polyhedron_of(primitive_of(cube_at(place).primitive())));
+    auto cube = Peer::make(to_polyhedron(*polyhedron_of(primitive_of(cube_at(place).primitive()))));
     try {
       value = i == 0   ? std::move(cube)
               : unites ? Peer::unite(value, cube)

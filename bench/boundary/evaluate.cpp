@@ -289,10 +289,10 @@ class LeafWriter {
   Json leaves() const { return leaves_; }
 
  private:
-  Json write(const Polyhedron& polyhedron) {
+  Json write(const StoredPolyhedron& polyhedron) {
     std::vector<std::array<double, 3>> points = nearest_doubles(polyhedron.vertices);
     std::vector<std::uint32_t> triangles;
-    for (const Facet& facet : polyhedron.facets) {
+    for (const auto facet : polyhedron.facets) {
       for (std::size_t i = 1; i + 1 < facet.size(); ++i) {
         triangles.insert(triangles.end(), {facet[0], facet[i], facet[i + 1]});
       }

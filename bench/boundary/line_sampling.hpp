@@ -27,7 +27,7 @@ struct SampledVolume {
   double standard_error = 0;  // from the differences of neighbouring squares: rather too large
 };
 
-inline std::vector<std::array<double, 3>> nearest_doubles(const std::vector<Point3>& points) {
+inline std::vector<std::array<double, 3>> nearest_doubles(const ExactPoints& points) {
   std::vector<std::array<double, 3>> result;
   result.reserve(points.size());
   for (const Point3& p : points) {
@@ -79,7 +79,7 @@ class LineSampling {
     bool enters;
   };
 
-  void bound(const Polyhedron& polyhedron) {
+  void bound(const StoredPolyhedron& polyhedron) {
     for (const auto& p : nearest_doubles(polyhedron.vertices)) {
       for (std::size_t axis = 0; axis < 2; ++axis) {
         lower_[axis] = std::min(lower_[axis], p[axis]);
@@ -108,9 +108,9 @@ class LineSampling {
     return std::min(rows_ - 1, static_cast<std::size_t>(place));
   }
 
-  void cross(const Polyhedron& polyhedron, std::size_t primitive) {
+  void cross(const StoredPolyhedron& polyhedron, std::size_t primitive) {
     const auto points = nearest_doubles(polyhedron.vertices);
-    for (const Facet& facet : polyhedron.facets) {
+    for (const auto facet : polyhedron.facets) {
       for (std::size_t i = 1; i + 1 < facet.size(); ++i) {
         cross({points[facet[0]], points[facet[i]], points[facet[i + 1]]}, primitive);
       }

@@ -184,7 +184,7 @@ inline std::shared_ptr<const Polyhedron> sphere_of_triangles(std::size_t fragmen
   for (const auto& v : sphere.vertices) {
     result.vertices.push_back({on_grid(v[0]), on_grid(v[1]), on_grid(v[2])});
   }
-  for (const Facet& facet : sphere.facets) {
+  for (const auto facet : sphere.facets.facets()) {
     for (std::size_t i = 1; i + 1 < facet.size(); ++i) {
       result.facets.push_back({facet[0], facet[i], facet[i + 1]});
     }
@@ -494,7 +494,7 @@ class PrimitiveMaker {
 
  private:
   static Primitive polytope(const io::openscad::IntegerPolyhedron& unit, const AffineMap& map) {
-    return {make_convex_polytope_unchecked(io::openscad::place(map, unit))};
+    return {io::openscad::place_polytope(map, unit)};
   }
 
   // The hull of a sphere and its image above: the sphere with its upper rings moved up. Its middle

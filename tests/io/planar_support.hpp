@@ -78,13 +78,14 @@ inline Rational checked_volume(const Solid& solid, std::size_t* primitives = nul
   csg::for_each_primitive(solid, [&](const Primitive& primitive) {
     ++count;
     if (const auto* mesh = std::get_if<PolyhedralMesh>(&primitive.shape)) {
-      sum += volume(*make_mesh(*mesh->polyhedron).polyhedron);
+      sum += volume(to_polyhedron(*make_mesh(to_polyhedron(*mesh->polyhedron)).polyhedron));
     } else {
-      const auto& polyhedron = *std::get<ConvexPolytope>(primitive.shape).polyhedron;
+      const Polyhedron polyhedron =
+          to_polyhedron(*std::get<ConvexPolytope>(primitive.shape).polyhedron);
       const auto again = make_convex_polytope(polyhedron);
       // Nothing merged: no two facets were coplanar.
       if (again.polyhedron->facets.size() != polyhedron.facets.size()) sum += 1'000'000;
-      sum += volume(*again.polyhedron);
+      sum += volume(to_polyhedron(*again.polyhedron));
     }
   });
   if (primitives != nullptr) *primitives = count;

@@ -16,6 +16,10 @@
 namespace exactcsg {
 namespace {
 
+PointView meeting_point(const Point3& p, const Point3& q, const PlaneForm& plane) {
+  return meeting_point_of_line(view_of(p), view_of(q), plane);
+}
+
 class RandomPoints {
  public:
   explicit RandomPoints(std::uint64_t seed) : random_(seed) {}
@@ -65,10 +69,11 @@ TEST(MeetingPoint, OfALineAndAPlane) {
     if (!met) continue;
     ++compared;
     const Point3& expected = *met;
-    const PointView by_points = meeting_point_of_line(p, q, plane_form_through(a, b, c));
+    const PointView by_points =
+        meeting_point(p, q, plane_form_through(view_of(a), view_of(b), view_of(c)));
     EXPECT_EQ(point_of(by_points), expected);
     const PlaneForm by_coefficients = plane_form_of(plane_through(a, b, c));
-    EXPECT_EQ(point_of(meeting_point_of_line(p, q, by_coefficients)), expected);
+    EXPECT_EQ(point_of(meeting_point(p, q, by_coefficients)), expected);
   }
   EXPECT_GT(compared, 2000);
 }
@@ -109,7 +114,8 @@ TEST(MeetingPoint, OfCopiesMovedByDecimals) {
         line_and_plane(points, {below(7), below(7), below(7)}, {below(7), below(7), below(7)});
     if (!expected) continue;
     ++compared;
-    const PointView met = meeting_point_of_line(p, q, plane_form_through(a, b, c));
+    const PointView met =
+        meeting_point(p, q, plane_form_through(view_of(a), view_of(b), view_of(c)));
     EXPECT_EQ(point_of(met), *expected);
     // LAW view.1
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -31,7 +31,7 @@ TEST(Digest, LongNumbersAsADocumentReaderRecomputesThem) {
   const Point3 high{hexadecimal("10", "3"),
                     hexadecimal("fedcba98765432100123456789abcdef", "abcdef0123456789b"),
                     hexadecimal("deadbeef0badf00d00000000000000000000001", "8")};
-  EXPECT_EQ(digest(boundary_of(*make_box(low, high).polyhedron)),
+  EXPECT_EQ(digest(boundary_of(to_polyhedron(*make_box(low, high).polyhedron))),
             "36b50d345949b2519a6295507a115c3b37bbdec0f609e9d5a88cfd29b2f8a493");
 }
 
@@ -42,11 +42,11 @@ TEST(Digest, TheEmptySolid) {
 
 TEST(Digest, TellsSolidsApart) {
   const std::string cube = digest(boundary_of_cells({{0, 0, 0}}));
-  EXPECT_EQ(cube, digest(boundary_of(*make_box({0, 0, 0}, {1, 1, 1}).polyhedron)));
+  EXPECT_EQ(cube, digest(boundary_of(to_polyhedron(*make_box({0, 0, 0}, {1, 1, 1}).polyhedron))));
   EXPECT_NE(cube, digest(boundary_of_cells({{0, 0, 1}})));
   EXPECT_NE(cube,
-            digest(boundary_of(
-                *make_box({0, 0, 0}, {1, 1, 1 + parse_rational("1e-30").value()}).polyhedron)));
+            digest(boundary_of(to_polyhedron(
+                *make_box({0, 0, 0}, {1, 1, 1 + parse_rational("1e-30").value()}).polyhedron))));
 }
 
 // LAW digest.2

@@ -26,7 +26,7 @@ using namespace test;
 constexpr std::array all_rules{FillRule::NonZero, FillRule::Positive, FillRule::EvenOdd};
 
 Polyhedron box(const Point3& lower, const Point3& upper) {
-  return *make_box(lower, upper).polyhedron;
+  return to_polyhedron(*make_box(lower, upper).polyhedron);
 }
 
 Rational filled_volume(const Polyhedron& polyhedron, FillRule rule) {

@@ -309,7 +309,7 @@ TEST(Incremental, UnboundedSolidsHaveNoBoundary) {
 
 TEST(Incremental, MeshesAreChangedAsConvexPolytopesAre) {
   const auto as_mesh = [](const Primitive& primitive) {
-    return Primitive{make_mesh(*polyhedron_of(primitive))};
+    return Primitive{make_mesh(to_polyhedron(*polyhedron_of(primitive)))};
   };
   IncrementalEvaluation design(row_of_balls(4));
   design.subtract(as_mesh(ball({0, 1, 0}, 1)));

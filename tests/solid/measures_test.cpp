@@ -37,7 +37,7 @@ bool holds(const Enclosure& e, const Rational& value) {
 
 TEST(Measures, BoxInClosedForm) {
   // 2 x 3 x 5/7: V = 30/7, A = 2 (6 + 10/7 + 15/7) = 134/7.
-  const Boundary box = boundary_of(*make_box({0, 0, 0}, {2, 3, {5, 7}}).polyhedron);
+  const Boundary box = boundary_of(to_polyhedron(*make_box({0, 0, 0}, {2, 3, {5, 7}}).polyhedron));
   EXPECT_EQ(exact_volume(box), Rational(30, 7));
   EXPECT_EQ(exact_area(box), Rational(134, 7));
   EXPECT_EQ(exact_centroid(box), (Point3{1, {3, 2}, {5, 14}}));
@@ -125,7 +125,7 @@ TEST(Measures, LongDenominatorsAgreeWithClosedForms) {
   EXPECT_EQ(exact_volume(t, 100), std::nullopt);
   EXPECT_EQ(exact_centroid(t, 100), std::nullopt);
   // A box of such sides has a rational area.
-  const Boundary box = boundary_of(*make_box({0, 0, 0}, {a, b, c}).polyhedron);
+  const Boundary box = boundary_of(to_polyhedron(*make_box({0, 0, 0}, {a, b, c}).polyhedron));
   EXPECT_EQ(exact_area(box), 2 * (a * b + b * c + c * a));
   EXPECT_EQ(exact_area(box, 100), std::nullopt);
   EXPECT_EQ(exact_volume(box), a * b * c);
@@ -169,16 +169,19 @@ TEST(Measures, TheEmptySolid) {
 TEST(Figures, TiesAreRoundedToEven) {
   // 1 x 1 x 5/4: V = 1.25, A = 2 + 5 = 7.
   const MeasuredFigures m =
-      measure(boundary_of(*make_box({0, 0, 0}, {1, 1, {5, 4}}).polyhedron), 2);
+      measure(boundary_of(to_polyhedron(*make_box({0, 0, 0}, {1, 1, {5, 4}}).polyhedron)), 2);
   EXPECT_EQ(m.volume_decimal, "1.2");
   EXPECT_EQ(m.exact_volume, Rational(5, 4));
   EXPECT_EQ(m.area_decimal, "7");
   EXPECT_EQ((*m.centroid_decimals)[2], "0.62");  // 0.625
   // 0.1 x 0.1 x 0.575: A = 0.02 + 0.4 * 0.575 = 0.25, not a sum of powers of two.
   const Rational tenth(1, 10);
-  EXPECT_EQ(measure(boundary_of(*make_box({0, 0, 0}, {tenth, tenth, {575, 1000}}).polyhedron), 1)
-                .area_decimal,
-            "0.2");
+  EXPECT_EQ(
+      measure(
+          boundary_of(to_polyhedron(*make_box({0, 0, 0}, {tenth, tenth, {575, 1000}}).polyhedron)),
+          1)
+          .area_decimal,
+      "0.2");
 }
 
 TEST(Figures, ZeroCentroidBySymmetryAndByExactSums) {
@@ -225,7 +228,8 @@ TEST(Figures, CentroidBySymmetryAboutAnyPoint) {
 }
 
 TEST(Figures, AllDigitsAskedFor) {
-  const Boundary third = boundary_of(*make_box({0, 0, 0}, {1, 1, {1, 3}}).polyhedron);
+  const Boundary third =
+      boundary_of(to_polyhedron(*make_box({0, 0, 0}, {1, 1, {1, 3}}).polyhedron));
   EXPECT_EQ(measure(third, 5).volume_decimal, "0.33333");
   EXPECT_EQ(measure(third, 100).volume_decimal, "0." + std::string(100, '3'));
 }

@@ -11,7 +11,7 @@
 namespace exactcsg::test {
 
 inline Polyhedron box_polyhedron(int x0, int y0, int z0, int x1, int y1, int z1) {
-  return *make_box({x0, y0, z0}, {x1, y1, z1}).polyhedron;
+  return to_polyhedron(*make_box({x0, y0, z0}, {x1, y1, z1}).polyhedron);
 }
 
 // A facet of n corners as n - 2 triangles, as STL files have it.

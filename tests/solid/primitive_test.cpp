@@ -80,9 +80,9 @@ Polyhedron double_sphere(unsigned n) {
 
 TEST(MakeBox, HasTheVolumeOfItsSides) {
   const ConvexPolytope box = make_box({0, 0, 0}, {2, 3, Rational(5, 7)});
-  EXPECT_EQ(six_volumes(*box.polyhedron), 6 * Rational(30, 7));
+  EXPECT_EQ(six_volumes(to_polyhedron(*box.polyhedron)), 6 * Rational(30, 7));
   // The checked constructor agrees that it is a convex polytope with these facets.
-  const ConvexPolytope checked = make_convex_polytope(*box.polyhedron);
+  const ConvexPolytope checked = make_convex_polytope(to_polyhedron(*box.polyhedron));
   EXPECT_EQ(checked.polyhedron->facets.size(), 6U);
   EXPECT_EQ(checked.polyhedron->vertices.size(), 8U);
 }
@@ -103,7 +103,7 @@ TEST(MakeConvexPolytope, MergesCoplanarNeighbours) {
   const ConvexPolytope box = make_convex_polytope(triangulated(box_polyhedron(0, 0, 0, 1, 2, 3)));
   EXPECT_EQ(box.polyhedron->facets.size(), 6U);
   EXPECT_EQ(box.polyhedron->vertices.size(), 8U);
-  EXPECT_EQ(six_volumes(*box.polyhedron), 36);
+  EXPECT_EQ(six_volumes(to_polyhedron(*box.polyhedron)), 36);
 }
 
 TEST(MakeConvexPolytope, DropsVerticesInTheMiddleOfSides) {
@@ -116,7 +116,7 @@ TEST(MakeConvexPolytope, DropsVerticesInTheMiddleOfSides) {
   const ConvexPolytope cube = make_convex_polytope(p);
   EXPECT_EQ(cube.polyhedron->vertices.size(), 8U);
   EXPECT_EQ(cube.polyhedron->facets.size(), 6U);
-  EXPECT_EQ(six_volumes(*cube.polyhedron), 48);
+  EXPECT_EQ(six_volumes(to_polyhedron(*cube.polyhedron)), 48);
 }
 
 TEST(MakeConvexPolytope, JoinsEqualVertices) {
@@ -215,7 +215,7 @@ TEST(HalfSpaceIntersection, CubeWithRedundantAndRepeatedPlanes) {
   h.push_back(make_half_space(1, 1, 0, -2));  // touches along an edge
   const ConvexPolytope cube = make_convex_polytope(h);
   EXPECT_EQ(cube.polyhedron->facets.size(), 6U);
-  EXPECT_EQ(six_volumes(*cube.polyhedron), 6);
+  EXPECT_EQ(six_volumes(to_polyhedron(*cube.polyhedron)), 6);
 }
 
 TEST(HalfSpaceIntersection, CutCorner) {
@@ -225,7 +225,7 @@ TEST(HalfSpaceIntersection, CutCorner) {
   const ConvexPolytope p = make_convex_polytope(h);
   EXPECT_EQ(p.polyhedron->facets.size(), 7U);
   EXPECT_EQ(p.polyhedron->vertices.size(), 10U);
-  EXPECT_EQ(six_volumes(*p.polyhedron), 6 * Rational(47, 48));
+  EXPECT_EQ(six_volumes(to_polyhedron(*p.polyhedron)), 6 * Rational(47, 48));
 }
 
 TEST(HalfSpaceIntersection, RefusesUnboundedAndFlatSets) {
@@ -258,7 +258,7 @@ TEST(MakeMesh, AcceptsWhatItsContractAllows) {
   // A cavity faces inwards.
   const PolyhedralMesh hollow = make_mesh(
       together(box_polyhedron(0, 0, 0, 3, 3, 3), reversed(box_polyhedron(1, 1, 1, 2, 2, 2))));
-  EXPECT_EQ(six_volumes(*hollow.polyhedron), 6 * (27 - 1));
+  EXPECT_EQ(six_volumes(to_polyhedron(*hollow.polyhedron)), 6 * (27 - 1));
   // An island in a cavity.
   EXPECT_NO_THROW(make_mesh(together(
       together(box_polyhedron(0, 0, 0, 9, 9, 9), reversed(box_polyhedron(1, 1, 1, 8, 8, 8))),
@@ -310,8 +310,9 @@ TEST(MakeMesh, RefusesFacetsThatCross) {
   // its edge; an edge along the middle of a facet; facets that overlap, wholly or in part; an edge
   // that lies on a part of a longer one.
   EXPECT_REFUSED(make_mesh(with(box_polyhedron(1, 1, 1, 3, 3, 3))), SelfIntersectingMesh);
-  EXPECT_REFUSED(make_mesh(with(*make_box({{1, 2}, {1, 2}, -1}, {1, 1, 3}).polyhedron)),
-                 SelfIntersectingMesh);
+  EXPECT_REFUSED(
+      make_mesh(with(to_polyhedron(*make_box({{1, 2}, {1, 2}, -1}, {1, 1, 3}).polyhedron))),
+      SelfIntersectingMesh);
   EXPECT_REFUSED(make_mesh(with(box_polyhedron(2, 0, 0, 3, 2, 2))), SelfIntersectingMesh);
   EXPECT_REFUSED(make_mesh(with(box_polyhedron(2, 1, 1, 3, 3, 3))), SelfIntersectingMesh);
   EXPECT_REFUSED(make_mesh(with(box_polyhedron(2, 2, 0, 3, 3, 1))), SelfIntersectingMesh);
@@ -514,15 +515,16 @@ TEST(ApplyMap, MultipliesVolumesByTheDeterminant) {
   const Primitive mesh{make_mesh(tetrahedron()), "part.csg:1:2"};
   const Primitive image = apply(shear, mesh);
   EXPECT_EQ(image.origin, "part.csg:1:2");
-  EXPECT_EQ(six_volumes(*std::get<PolyhedralMesh>(image.shape).polyhedron), Rational(10, 3));
+  EXPECT_EQ(six_volumes(to_polyhedron(*std::get<PolyhedralMesh>(image.shape).polyhedron)),
+            Rational(10, 3));
 }
 
 TEST(ApplyMap, TurnsFacetsRoundIfItMirrors) {
   const Primitive box{make_box({0, 0, 0}, {1, 2, 3})};
   const Primitive image = apply(scaling(-1, 1, 1), box);
   const ConvexPolytope& polytope = std::get<ConvexPolytope>(image.shape);
-  EXPECT_EQ(six_volumes(*polytope.polyhedron), 36);
-  EXPECT_NO_THROW(make_convex_polytope(*polytope.polyhedron));
+  EXPECT_EQ(six_volumes(to_polyhedron(*polytope.polyhedron)), 36);
+  EXPECT_NO_THROW(make_convex_polytope(to_polyhedron(*polytope.polyhedron)));
 }
 
 TEST(ApplyMap, MapsHalfSpaces) {

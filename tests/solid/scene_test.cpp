@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
+#include "exactcsg/solid/prepared_polyhedron.hpp"
+#include "exactcsg/solid/primitive_in_parallel.hpp"
 #include "exactcsg/solid/scene.hpp"
 #include "exactcsg/support/error.hpp"
 #include "solid/polyhedra.hpp"
@@ -43,8 +46,8 @@ Polyhedron two_boxes_at_an_edge() {
 }
 
 Primitive mesh(Polyhedron polyhedron) { return {make_mesh(std::move(polyhedron))}; }
-Primitive polytope(Polyhedron polyhedron) {
-  return {make_convex_polytope_unchecked(std::move(polyhedron))};
+Primitive polytope(const Polyhedron& polyhedron) {
+  return {make_convex_polytope_unchecked(polyhedron)};
 }
 
 // Both senses of sides, coplanar neighbours, corners with many sides, copies that are and are not
@@ -71,7 +74,7 @@ std::vector<Primitive> primitives() {
           mesh(two_boxes_at_an_edge())};
 }
 
-const Polyhedron& polyhedron(const Primitive& primitive) { return *polyhedron_of(primitive); }
+const StoredPolyhedron& polyhedron(const Primitive& primitive) { return *polyhedron_of(primitive); }
 
 TEST(Scene, FacetsHaveTheCornersAndThePlanesOfThePolyhedra) {
   const std::vector<Primitive> given = primitives();
@@ -85,7 +88,7 @@ TEST(Scene, FacetsHaveTheCornersAndThePlanesOfThePolyhedra) {
       EXPECT_EQ(scene.geometry.exact_plane(facet.plane.plane), (Plane{1, 2, 3, -4}));
       continue;
     }
-    const std::vector<Facet>& facets = polyhedron(given[p]).facets;
+    const FlatFacets& facets = polyhedron(given[p]).facets;
     ASSERT_EQ(primitive.facet_count, facets.size());
     for (FacetIndex f = 0; f < facets.size(); ++f) {
       const SceneFacet& facet = scene.facets[primitive.first_facet + f];
@@ -132,14 +135,19 @@ TEST(Scene, CoplanarNeighboursShareAPlane) {
   }
 }
 
-// Many shapes are shared out among threads, large ones are shared by them.
+// Nor do primitives: large ones are prepared by several threads.
 TEST(Scene, DoesNotDependOnThreads) {
-  const Primitive large{make_mesh_unchecked(test::triangulated(pyramid(4000)))};
-  const Primitive moved = apply(test::translation(0, 0, 64), large);
-  const Primitive thirds = apply(test::translation(0, 0, Rational(1, 3)), large);
-  for (const Solid& solid : {united(primitives()), united({large, moved, thirds})}) {
-    const Scene scene = make_scene(solid, 1);
-    const Scene other = make_scene(solid, 3);
+  const Polyhedron large = test::triangulated(pyramid(4000));
+  const auto united_copies = [&](unsigned threads) {
+    const Primitive first{PolyhedralMesh{store_mesh(large, threads)}};
+    return united({first, apply(test::translation(0, 0, 64), first, threads),
+                   apply(test::translation(0, 0, Rational(1, 3)), first, threads)});
+  };
+  const std::array<std::array<Solid, 2>, 2> solids{
+      {{united(primitives()), united(primitives())}, {united_copies(1), united_copies(3)}}};
+  for (const auto& [by_one, by_several] : solids) {
+    const Scene scene = make_scene(by_one, 1);
+    const Scene other = make_scene(by_several, 3);
     EXPECT_EQ(scene.corners, other.corners);
     EXPECT_EQ(scene.root.lower, other.root.lower);
     EXPECT_EQ(scene.root.upper, other.root.upper);

@@ -14,7 +14,7 @@ AffineMap shift_x(const Rational& by) {
   return map;
 }
 
-const Polyhedron& polyhedron(const Solid& s) {
+const StoredPolyhedron& polyhedron(const Solid& s) {
   return *std::get<ConvexPolytope>(s.primitive().shape).polyhedron;
 }
 

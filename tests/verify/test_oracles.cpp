@@ -174,7 +174,7 @@ TEST(Nef, HalfSpaces) {  // the simplex x, y, z >= 0, x + y + z <= 1 has volume 
 }
 
 Polyhedron box_polyhedron(const Point3& lower, const Point3& upper) {
-  return *make_box(lower, upper).polyhedron;
+  return to_polyhedron(*make_box(lower, upper).polyhedron);
 }
 
 void append(Polyhedron& to, const Polyhedron& from, bool reversed) {

@@ -32,11 +32,12 @@ bool are_collinear(const Point3& p, const Point3& q, const Point3& r) {
 }
 
 // Of all facets, each once. A facet may have vertices in straight sides, and corners elsewhere.
-std::set<Plane, IsBefore> planes_of(const Polyhedron& polyhedron) {
+std::set<Plane, IsBefore> planes_of(const StoredPolyhedron& polyhedron) {
+  const std::vector<Point3> vertices = to_vector(polyhedron.vertices);
   std::set<Plane, IsBefore> result;
-  for (const Facet& facet : polyhedron.facets) {
+  for (const auto facet : polyhedron.facets) {
     const auto at = [&](std::size_t i) -> const Point3& {
-      return polyhedron.vertices[facet[i % facet.size()]];
+      return vertices[facet[i % facet.size()]];
     };
     std::size_t corner = 0;
     while (are_collinear(at(corner), at(corner + 1), at(corner + 2))) ++corner;
@@ -50,7 +51,7 @@ domain::HalfSpace<3> half_space(const Plane& plane) {
                             Rational(plane.d));
 }
 
-void check_convex(const Polyhedron& polyhedron, const std::set<Plane, IsBefore>& planes,
+void check_convex(const StoredPolyhedron& polyhedron, const std::set<Plane, IsBefore>& planes,
                   const std::string& origin) {
   for (const Plane& plane : planes) {
     for (const Point3& vertex : polyhedron.vertices) {
@@ -68,7 +69,7 @@ Solid3 tree_of(const Primitive& primitive) {
   if (const auto* single = std::get_if<HalfSpace>(&primitive.shape)) {
     return Solid3::primitive(half_space(single->plane));
   }
-  const Polyhedron& polyhedron = *polyhedron_of(primitive);
+  const StoredPolyhedron& polyhedron = *polyhedron_of(primitive);
   const auto planes = planes_of(polyhedron);
   if (std::holds_alternative<PolyhedralMesh>(primitive.shape)) {
     check_convex(polyhedron, planes, primitive.origin);

@@ -94,7 +94,7 @@ class Classifier {
     }
     // Whether q's three points lie on p is cheaper to find than q's coprime coefficients.
     const auto corners = planes_.points(q).homogeneous(
-        [this](PointId id) { return homogeneous_of(points_.exact(id)); });
+        [this](PointId id) { return homogeneous_of(point_of(points_.exact(id))); });
     for (const Homogeneous<Integer>& point : corners) {
       const Integer value =
           exact_p.a * point.x + exact_p.b * point.y + exact_p.c * point.z + exact_p.d * point.w;

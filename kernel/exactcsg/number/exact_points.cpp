@@ -113,8 +113,8 @@ mp_limb_t* ExactPoints::allocate(std::size_t limbs) {
   return result;
 }
 
-PointView ExactPoints::view(std::size_t i) const {
-  const mp_limb_t* const record = records_[i];
+PointView PointRecord::view() const {
+  const mp_limb_t* const record = record_;
   const mp_limb_t* limbs = numbers_of(record);
   const auto next = [&](const Shape& shape) {
     const mp_limb_t* const numerator = limbs;
@@ -183,6 +183,8 @@ bool equal_records(const mp_limb_t* a, const mp_limb_t* b) {
 }
 
 }  // namespace
+
+bool operator==(PointRecord p, PointRecord q) { return equal_records(p.record_, q.record_); }
 
 bool operator==(const ExactPoints& p, const ExactPoints& q) {
   return std::equal(p.records_.begin(), p.records_.end(), q.records_.begin(), q.records_.end(),

@@ -29,6 +29,23 @@
 
 namespace exactcsg {
 
+// A point as it lies in memory. Lasts as long as the points that it is one of, wherever they are
+// moved.
+class PointRecord {
+ public:
+  PointRecord() = default;
+  PointView view() const;
+  // Where the limbs begin, to ask memory for them ahead.
+  const void* address() const { return record_; }
+
+  friend bool operator==(PointRecord p, PointRecord q);
+
+ private:
+  friend class ExactPoints;
+  explicit PointRecord(const mp_limb_t* record) : record_(record) {}
+  const mp_limb_t* record_ = nullptr;
+};
+
 class ExactPoints {
  public:
   // Gives points by value.
@@ -71,7 +88,8 @@ class ExactPoints {
   Iterator begin() const { return {*this, 0}; }
   Iterator end() const { return {*this, size()}; }
   // Of limbs that last as long as the points, wherever they are moved.
-  PointView view(std::size_t i) const;
+  PointView view(std::size_t i) const { return record(i).view(); }
+  PointRecord record(std::size_t i) const { return PointRecord(records_[i]); }
 
   void reserve(std::size_t points) { records_.reserve(points); }
   void push_back(const Point3& point) { push_back(view_of(point)); }

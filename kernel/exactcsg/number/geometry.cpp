@@ -62,7 +62,7 @@ Plane Geometry::exact_plane_value(PlaneRef plane) const {
   return {c.a, c.b, c.c, c.d};
 }
 
-const Point3& Geometry::point(PointId id) const { return data_->points.exact(id); }
+PointRecord Geometry::point(PointId id) const { return data_->points.record(id); }
 
 namespace {
 
@@ -75,14 +75,14 @@ void copy_coordinate(const Geometry::Data& data, PointId id, std::size_t axis,
                      NearPointView& result) {
   const ApproximatePoint& near = data.points.approximate(id);
   RationalView& exact = result.exact[axis];
-  exact = view_of(exactcsg::coordinate(data.points.exact(id), axis));
+  exact = data.points.exact(id)[axis];
   result.nearest[axis] =
       std::isfinite(near.error) ? coordinate(near, axis) : round_to_nearest(exact).value;
 }
 
 NearPointView input_point(const Geometry::Data& data, PointId id) {
   const ApproximatePoint& near = data.points.approximate(id);
-  NearPointView result{view_of(data.points.exact(id)), {near.x, near.y, near.z}};
+  NearPointView result{data.points.exact(id), {near.x, near.y, near.z}};
   if (!std::isfinite(near.error)) {
     for (std::size_t axis = 0; axis < 3; ++axis) copy_coordinate(data, id, axis, result);
   }
@@ -94,8 +94,7 @@ bool agree(const Geometry::Data& data, const PointPair& line, std::size_t axis) 
   const ApproximatePoint& q = data.points.approximate(line.second);
   if (coordinate(p, axis) != coordinate(q, axis)) return false;
   if (p.error == 0 && q.error == 0) return true;
-  return exactcsg::coordinate(data.points.exact(line.first), axis) ==
-         exactcsg::coordinate(data.points.exact(line.second), axis);
+  return equal(data.points.exact(line.first)[axis], data.points.exact(line.second)[axis]);
 }
 
 // A point of a plane whose coordinate along the axis is that of all points of the plane, if one is

@@ -26,6 +26,7 @@
 #include <memory>
 #include <span>
 
+#include "exactcsg/number/exact_points.hpp"
 #include "exactcsg/number/point.hpp"
 #include "exactcsg/number/rational_view.hpp"
 #include "exactcsg/number/tier_statistics.hpp"
@@ -156,7 +157,7 @@ class Geometry {
   // Exact coprime integer coefficients with the stored normal's sense; walls too.
   const Plane& exact_plane(PlaneRef plane) const;  // REQUIRES !plane.is_wall()
   Plane exact_plane_value(PlaneRef plane) const;   // any
-  const Point3& point(PointId id) const;
+  PointRecord point(PointId id) const;
   Point3 exact_point(const Vertex& v) const { return point_of(exact_view(v).exact); }
   // The same, of limbs that last until the thread calls this again. COST: less than of the point
   NearPointView exact_view(const Vertex& v) const;
@@ -243,8 +244,8 @@ class Geometry::Builder {
   // The same of points that `owner` keeps alive, as the Geometry will keep the owner: they are not
   // copied.
   void add_owner(std::shared_ptr<const void> owner);
-  PointId add_owned_point(const Point3& point, const HashedPoint& hashed);
-  const Point3& point(PointId id) const;
+  PointId add_owned_point(PointRecord point, const HashedPoint& hashed);
+  Point3 point(PointId id) const;
   // The plane through three points, counter-clockwise from outside. Lazy: nothing exact is computed
   // unless the certified double is too poor or another plane may coincide.
   // THROWS Error(DegenerateFacet) if they are collinear. Returns 0, 1, 2, ... in order of calls.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 #include <vector>
@@ -96,18 +97,19 @@ void Geometry::Builder::add_owner(std::shared_ptr<const void> owner) {
   state_->owners.push_back(std::move(owner));
 }
 
-PointId Geometry::Builder::add_owned_point(const Point3& point, const HashedPoint& hashed) {
+PointId Geometry::Builder::add_owned_point(PointRecord point, const HashedPoint& hashed) {
   return state_->points.intern_lasting(point, hashed);
 }
 
-const Point3& Geometry::Builder::point(PointId id) const { return state_->points.exact(id); }
+Point3 Geometry::Builder::point(PointId id) const { return point_of(state_->points.exact(id)); }
 
 std::uint32_t Geometry::Builder::add_plane(PointId p, PointId q, PointId r) {
   const PointTable& points = state_->points;
-  const auto near = [&points](PointId id) {
-    return NearPoint{points.exact(id), points.approximate(id)};
-  };
-  const std::uint32_t index = add_plane(prepared_plane(near(p), near(q), near(r)), p, q, r);
+  const std::array<Point3, 3> exact{point(p), point(q), point(r)};
+  const std::uint32_t index =
+      add_plane(prepared_plane({exact[0], points.approximate(p)}, {exact[1], points.approximate(q)},
+                               {exact[2], points.approximate(r)}),
+                p, q, r);
   for (const PointId id : {p, q, r}) add_incidence(id, index);
   return index;
 }

@@ -44,7 +44,7 @@ struct Geometry::Data {
   }
   const Homogeneous<Integer>& homogeneous(PointId id) const {
     return homogeneous_points.get(static_cast<std::size_t>(id),
-                                  [&] { return homogeneous_of(points.exact(id)); });
+                                  [&] { return homogeneous_of(point_of(points.exact(id))); });
   }
   const PlaneForm& form(std::uint32_t plane) const { return planes.form(points, plane); }
   PlaneOperand operand(PlaneRef plane) const {

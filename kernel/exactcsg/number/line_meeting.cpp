@@ -111,21 +111,42 @@ std::optional<mp_limb_t> short_common_multiple(const std::array<mp_limb_t, 3>& n
   return common;
 }
 
+// An integer of somebody else's limbs, for GMP to read.
+class IntegerView {
+ public:
+  explicit IntegerView(LimbSpan limbs, bool negative = false) {
+    const auto size = static_cast<mp_size_t>(limbs.size());
+    mpz_roinit_n(value_, limbs.data(), negative ? -size : size);
+  }
+  static IntegerView of_numerator(const RationalView& value) {
+    return IntegerView(value.numerator, value.negative);
+  }
+  mpz_srcptr get() const { return value_; }
+
+ private:
+  mpz_t value_;
+};
+
 // numerator * factor * 2^shift
-void set_multiple(Integer& result, const Integer& numerator, mp_limb_t factor, mp_bitcnt_t shift) {
+void set_multiple(Integer& result, const IntegerView& numerator, mp_limb_t factor,
+                  mp_bitcnt_t shift) {
   if (factor == 1) {
-    mpz_mul_2exp(result.get_mpz_t(), numerator.get_mpz_t(), shift);
+    mpz_mul_2exp(result.get_mpz_t(), numerator.get(), shift);
     return;
   }
-  mpz_mul_ui(result.get_mpz_t(), numerator.get_mpz_t(), factor);
+  mpz_mul_ui(result.get_mpz_t(), numerator.get(), factor);
   shift_left(result, shift);
 }
 
 // The odd parts of the denominators are long. `odd` is overwritten.
-void set_long_scaled(Scaled& result, const Point3& point,
+void set_long_scaled(Scaled& result, const PointView& point,
                      const std::array<mp_bitcnt_t, 3>& exponents, Integer& odd) {
   const auto set_odd = [&](std::size_t i) {
-    mpz_tdiv_q_2exp(odd.get_mpz_t(), coordinate(point, i).get_den_mpz_t(), exponents[i]);
+    if (point[i].has_binary_denominator()) {
+      odd = 1;
+      return;
+    }
+    mpz_tdiv_q_2exp(odd.get_mpz_t(), IntegerView(point[i].denominator).get(), exponents[i]);
   };
   result.odd = 1;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -135,18 +156,24 @@ void set_long_scaled(Scaled& result, const Point3& point,
   for (std::size_t i = 0; i < 3; ++i) {
     set_odd(i);
     mpz_divexact(odd.get_mpz_t(), result.odd.get_mpz_t(), odd.get_mpz_t());
-    mpz_mul(result.numerator[i].get_mpz_t(), coordinate(point, i).get_num_mpz_t(), odd.get_mpz_t());
+    mpz_mul(result.numerator[i].get_mpz_t(), IntegerView::of_numerator(point[i]).get(),
+            odd.get_mpz_t());
     shift_left(result.numerator[i], result.exponent - exponents[i]);
   }
 }
 
 // `odd` is overwritten.
-void set_scaled(Scaled& result, const Point3& point, Integer& odd) {
+void set_scaled(Scaled& result, const PointView& point, Integer& odd) {
   std::array<mp_bitcnt_t, 3> exponents{};
   std::array<mp_limb_t, 3> odds{};
   bool all_short = true;
   for (std::size_t i = 0; i < 3; ++i) {
-    const LimbSpan denominator = limbs_of(coordinate(point, i).get_den());
+    odds[i] = 1;
+    if (point[i].has_binary_denominator()) {
+      exponents[i] = point[i].exponent;
+      continue;
+    }
+    const LimbSpan denominator = point[i].denominator;
     exponents[i] = static_cast<mp_bitcnt_t>(count_low_zeros(denominator));
     const std::optional<mp_limb_t> odd_part = short_odd_part(denominator, exponents[i]);
     all_short = all_short && odd_part;
@@ -160,7 +187,7 @@ void set_scaled(Scaled& result, const Point3& point, Integer& odd) {
   }
   result.odd = *common;
   for (std::size_t i = 0; i < 3; ++i) {
-    set_multiple(result.numerator[i], coordinate(point, i).get_num(), *common / odds[i],
+    set_multiple(result.numerator[i], IntegerView::of_numerator(point[i]), *common / odds[i],
                  result.exponent - exponents[i]);
   }
 }
@@ -209,7 +236,7 @@ void set_dot(Integer& result, const Vector& a, const Vector& b) {
 
 }  // namespace
 
-PlaneForm plane_form_through(const Point3& p, const Point3& q, const Point3& r) {
+PlaneForm plane_form_through(const PointView& p, const PointView& q, const PointView& r) {
   if (auto form = short_plane_form_through(p, q, r)) return *std::move(form);
   Scratch& s = scratch();
   auto& [a, b, c] = s.points;
@@ -283,14 +310,14 @@ RationalView coordinate_of_line(Scratch& s, std::size_t i, const Integer& direct
 
 }  // namespace
 
-PointView meeting_point_of_line(const Point3& p, const Point3& q, const PlaneForm& plane) {
+PointView meeting_point_of_line(const PointView& p, const PointView& q, const PlaneForm& plane) {
   if (const auto met = short_meeting_point_of_line(p, q, plane)) return *met;
   Scratch& s = scratch();
   auto& from = s.points[0];
   auto& to = s.points[1];
   Vector& direction = s.u;
   set_scaled(from, p, s.factor);
-  const std::array<bool, 3> along{p.x != q.x, p.y != q.y, p.z != q.z};
+  const std::array<bool, 3> along{!equal(p[0], q[0]), !equal(p[1], q[1]), !equal(p[2], q[2])};
   if (along[0] + along[1] + along[2] == 1) {
     for (std::size_t i = 0; i < 3; ++i) direction[i] = along[i] ? 1 : 0;
   } else {
@@ -321,7 +348,7 @@ PointView meeting_point_of_line(const Point3& p, const Point3& q, const PlaneFor
   divide_exactly(s.slope, s.factor);
 
   const auto met = [&](std::size_t i) -> RationalView {
-    if (direction[i] == 0) return view_of(coordinate(p, i));
+    if (direction[i] == 0) return p[i];
     mpz_mul_2exp(s.numerators[i].get_mpz_t(), from.numerator[i].get_mpz_t(),
                  exponent - from.exponent);
     if (!same_odd) multiply(s.numerators[i], plane.odd);

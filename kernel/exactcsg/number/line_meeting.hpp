@@ -26,12 +26,12 @@ struct PlaneForm {
 
 // COST: much less than of coprime coefficients
 // REQUIRES points that are not on one line
-PlaneForm plane_form_through(const Point3& p, const Point3& q, const Point3& r);
+PlaneForm plane_form_through(const PointView& p, const PointView& q, const PointView& r);
 PlaneForm plane_form_of(const Plane& plane);
 
-// Where the line through p and q meets a plane. The view is of limbs of p, which is copied where
+// Where the line through p and q meets a plane. The view is of limbs of p, which are shared where
 // the whole line has a coordinate in common, and of limbs that last until the thread calls this
 // again. REQUIRES p != q, and that the line is not parallel to the plane
-PointView meeting_point_of_line(const Point3& p, const Point3& q, const PlaneForm& plane);
+PointView meeting_point_of_line(const PointView& p, const PointView& q, const PlaneForm& plane);
 
 }  // namespace exactcsg

@@ -29,8 +29,8 @@ void AddedPlanes::reserve(std::size_t more) {
 const Plane& AddedPlanes::exact(const PointTable& points, std::uint32_t i) {
   std::unique_ptr<const Plane>& known = exact_[i];
   if (!known) {
-    known = std::make_unique<const Plane>(
-        points_[i].plane([&points](PointId id) { return homogeneous_of(points.exact(id)); }));
+    known = std::make_unique<const Plane>(points_[i].plane(
+        [&points](PointId id) { return homogeneous_of(point_of(points.exact(id))); }));
   }
   return *known;
 }
@@ -61,12 +61,13 @@ PlaneTable::PlaneTable(AddedPlanes&& added, const std::vector<std::uint32_t>& me
 }
 
 PlaneForm PlanePoints::form(const PointTable& points) const {
-  const Point3& p = points.exact(first_);
-  const Point3& q = points.exact(second_);
+  const PointView p = points.exact(first_);
+  const PointView q = points.exact(second_);
   if (third_ < first_axis) return plane_form_through(p, q, points.exact(PointId{third_}));
   const std::uint32_t axis = third_ - first_axis;
-  Point3 above = p;
-  (axis == 0 ? above.x : axis == 1 ? above.y : above.z) += 1;
+  const Rational coordinate_above = rational_of(p[axis]) + 1;
+  PointView above = p;
+  above[axis] = view_of(coordinate_above);
   return plane_form_through(p, q, above);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <cstdint>
 #include <limits>
 
@@ -70,18 +71,26 @@ HashedPoint hashed(const Point3& point) {
 }
 
 PointId PointTable::intern(const Point3& point) {
-  const auto [id, is_new] = find_or_add(point, hashed(point));
-  if (is_new) points_.push_back(&copies_.emplace_back(point));
+  const PointView view = view_of(point);
+  const auto [id, is_new] = find_or_add(hashed(point), [&](PointRecord known) {
+    return compare(known.view(), view) == std::strong_ordering::equal;
+  });
+  if (is_new) {
+    copies_.push_back(view);
+    points_.push_back(copies_.record(copies_.size() - 1));
+  }
   return id;
 }
 
-PointId PointTable::intern_lasting(const Point3& point, const HashedPoint& hashed) {
-  const auto [id, is_new] = find_or_add(point, hashed);
-  if (is_new) points_.push_back(&point);
+PointId PointTable::intern_lasting(PointRecord point, const HashedPoint& hashed) {
+  const auto [id, is_new] =
+      find_or_add(hashed, [point](PointRecord known) { return known == point; });
+  if (is_new) points_.push_back(point);
   return id;
 }
 
-std::pair<PointId, bool> PointTable::find_or_add(const Point3& point, const HashedPoint& hashed) {
+template <class Equals>
+std::pair<PointId, bool> PointTable::find_or_add(const HashedPoint& hashed, const Equals& equals) {
   if (points_.size() * 2 >= slots_.size()) enlarge_slots(points_.size() + 1);
   const std::uint64_t hash = hashed.hash;
   const std::size_t mask = slots_.size() - 1;
@@ -89,7 +98,7 @@ std::pair<PointId, bool> PointTable::find_or_add(const Point3& point, const Hash
   for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
     const std::uint32_t id = slots_[slot] - 1;
     if (hashes_[id] != hash || !are_equal(approximate_[id], hashed.near)) continue;
-    if (hashed.near.error == 0 || *points_[id] == point) return {PointId{id}, false};
+    if (hashed.near.error == 0 || equals(points_[id])) return {PointId{id}, false};
   }
   const auto id = static_cast<std::uint32_t>(points_.size());
   slots_[slot] = id + 1;

@@ -4,11 +4,11 @@
 // Exact points, each once, with their certified doubles. Private to number/. [Exact]
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "exactcsg/number/exact_points.hpp"
 #include "exactcsg/number/geometry.hpp"
 #include "exactcsg/number/point.hpp"
 
@@ -19,7 +19,7 @@ class PointTable {
   // The id of the point of this value, a new one if there is none. COST: amortised O(1)
   PointId intern(const Point3& point);
   // The same without a copy. REQUIRES the point lasts as long as the table.
-  PointId intern_lasting(const Point3& point, const HashedPoint& hashed);
+  PointId intern_lasting(PointRecord point, const HashedPoint& hashed);
 
   // Room for so many more.
   void reserve(std::size_t more);
@@ -27,19 +27,22 @@ class PointTable {
   void close();
 
   std::size_t size() const { return points_.size(); }
-  const Point3& exact(PointId id) const { return *points_[static_cast<std::size_t>(id)]; }
+  PointRecord record(PointId id) const { return points_[static_cast<std::size_t>(id)]; }
+  PointView exact(PointId id) const { return record(id).view(); }
   const ApproximatePoint& approximate(PointId id) const {
     return approximate_[static_cast<std::size_t>(id)];
   }
   const ApproximatePoint* approximate() const { return approximate_.data(); }  // by id
 
  private:
-  // Returns the id, and whether it is a new one, whose point is still to be set.
-  std::pair<PointId, bool> find_or_add(const Point3& point, const HashedPoint& hashed);
+  // Returns the id, and whether it is a new one, whose point is still to be set. equals(record): of
+  // the point that is sought.
+  template <class Equals>
+  std::pair<PointId, bool> find_or_add(const HashedPoint& hashed, const Equals& equals);
   void enlarge_slots(std::size_t least);
 
-  std::vector<const Point3*> points_;
-  std::deque<Point3> copies_;  // a deque: references stay valid while points are added
+  std::vector<PointRecord> points_;
+  ExactPoints copies_;
   std::vector<ApproximatePoint> approximate_;
   std::vector<std::uint64_t> hashes_;
   std::vector<std::uint32_t> slots_;  // open addressing: 0 free, else id + 1

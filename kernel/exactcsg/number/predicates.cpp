@@ -265,10 +265,10 @@ Decision compare_points(const Data& data, const Vertex& v, const Vertex& w, Axis
   if (v.error == 0 && w.error == 0) {
     return {sign_of_difference(v.coordinate(axis), w.coordinate(axis)), Tier::Double};
   }
-  const Rational& x = coordinate(data.points.exact(v.point), axis);
-  const Rational& y = coordinate(data.points.exact(w.point), axis);
-  if (x == y) return {Sign::Zero, Tier::Symbolic};
-  return {sign_of(cmp(x, y)), Tier::Unbounded};
+  const RationalView x = data.points.exact(v.point)[static_cast<std::size_t>(axis)];
+  const RationalView y = data.points.exact(w.point)[static_cast<std::size_t>(axis)];
+  if (equal(x, y)) return {Sign::Zero, Tier::Symbolic};
+  return {compare(x, y) < 0 ? Sign::Negative : Sign::Positive, Tier::Unbounded};
 }
 
 Decision compare(const Data& data, const Vertex& first, const Vertex& second, Axis axis) {

@@ -32,8 +32,12 @@ struct Denominator {
   unsigned long exponent = 0;
 };
 
-std::optional<Denominator> denominator_of(const Integer& value) {
-  const LimbSpan limbs = limbs_of(value);
+std::optional<Denominator> denominator_of(const RationalView& value) {
+  if (value.has_binary_denominator()) {
+    if (value.exponent >= most_exponent) return std::nullopt;
+    return Denominator{1, value.exponent};
+  }
+  const LimbSpan limbs = value.denominator;
   const auto zeros = static_cast<unsigned long>(count_low_zeros(limbs));
   if (zeros >= most_exponent) return std::nullopt;
   const std::size_t whole = zeros / GMP_NUMB_BITS;
@@ -67,13 +71,13 @@ bool widen(Denominator& common, const Denominator& other) {
   return !__builtin_mul_overflow(common.odd, factor, &common.odd);
 }
 
-bool read(Read& result, const Point3& point) {
+bool read(Read& result, const PointView& point) {
   result.common = {};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Rational& value = coordinate(point, i);
-    result.numerator[i] = limbs_of(value.get_num());
-    result.negative[i] = sgn(value) < 0;
-    const auto denominator = denominator_of(value.get_den());
+    const RationalView& value = point[i];
+    result.numerator[i] = value.numerator;
+    result.negative[i] = value.negative;
+    const auto denominator = denominator_of(value);
     if (!denominator || result.numerator[i].size() > most_limbs_of_numerators) return false;
     result.denominator[i] = *denominator;
     if (!widen(result.common, *denominator)) return false;
@@ -181,8 +185,8 @@ bool has_zero(const Vector& vector) {
 
 }  // namespace
 
-std::optional<PlaneForm> short_plane_form_through(const Point3& p, const Point3& q,
-                                                  const Point3& r) {
+std::optional<PlaneForm> short_plane_form_through(const PointView& p, const PointView& q,
+                                                  const PointView& r) {
   Scratch& s = scratch();
   if (!read(s.read[0], p) || !read(s.read[1], q) || !read(s.read[2], r)) return std::nullopt;
   Denominator common = s.read[0].common;
@@ -280,11 +284,11 @@ RationalView coordinate_of_line(Scratch& s, std::size_t i, const FewLimbs& at_p_
 
 }  // namespace
 
-std::optional<PointView> short_meeting_point_of_line(const Point3& p, const Point3& q,
+std::optional<PointView> short_meeting_point_of_line(const PointView& p, const PointView& q,
                                                      const PlaneForm& plane) {
   Scratch& s = scratch();
   if (!is_short(plane) || !read(s.read[0], p)) return std::nullopt;
-  const std::array<bool, 3> along{p.x != q.x, p.y != q.y, p.z != q.z};
+  const std::array<bool, 3> along{!equal(p[0], q[0]), !equal(p[1], q[1]), !equal(p[2], q[2])};
   Denominator common = s.read[0].common;
   Vector& from = s.points[0];
   Vector& direction = s.u;
@@ -341,7 +345,7 @@ std::optional<PointView> short_meeting_point_of_line(const Point3& p, const Poin
     s.slope.divide_exactly(s.factor);
   }
   const auto met = [&](std::size_t i) -> RationalView {
-    if (direction[i].is_zero()) return view_of(coordinate(p, i));
+    if (direction[i].is_zero()) return p[i];
     return coordinate_of_line(s, i, from[i], direction[i], line);
   };
   return PointView{met(0), met(1), met(2)};

@@ -12,9 +12,9 @@ namespace exactcsg {
 
 // LAW short_meeting.1  the plane of plane_form_through, and the view of meeting_point_of_line, or
 // nothing if a number is too long.
-std::optional<PlaneForm> short_plane_form_through(const Point3& p, const Point3& q,
-                                                  const Point3& r);
-std::optional<PointView> short_meeting_point_of_line(const Point3& p, const Point3& q,
+std::optional<PlaneForm> short_plane_form_through(const PointView& p, const PointView& q,
+                                                  const PointView& r);
+std::optional<PointView> short_meeting_point_of_line(const PointView& p, const PointView& q,
                                                      const PlaneForm& plane);
 
 }  // namespace exactcsg

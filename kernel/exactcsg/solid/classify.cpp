@@ -128,70 +128,73 @@ class SinglePoint {
     return cone({half_space.plane});
   }
 
-  static Plane plane_of(const Polyhedron& polyhedron, const Facet& facet) {
+  using Corners = std::span<const std::uint32_t>;
+
+  static Plane plane_of(std::span<const Point3> vertices, Corners facet) {
     for (std::size_t k = 2; k < facet.size(); ++k) {
-      const Point3& p = polyhedron.vertices[facet[0]];
-      const Point3& q = polyhedron.vertices[facet[k - 1]];
-      const Point3& r = polyhedron.vertices[facet[k]];
+      const Point3& p = vertices[facet[0]];
+      const Point3& q = vertices[facet[k - 1]];
+      const Point3& r = vertices[facet[k]];
       if (cross(q - p, r - p) != Vector3{}) return plane_through(p, q, r);
     }
     throw Error(ErrorId::InternalError, {"a facet without area", ""});
   }
 
-  Sign side_of_facet(const Polyhedron& polyhedron, const Facet& facet) const {
+  Sign side_of_facet(std::span<const Point3> vertices, Corners facet) const {
     return side_of_polygon(
-        facet.size(), [&](std::size_t i) -> const Point3& { return polyhedron.vertices[facet[i]]; },
-        point_);
+        facet.size(), [&](std::size_t i) -> const Point3& { return vertices[facet[i]]; }, point_);
   }
 
-  NearPoint near_polytope(const Polyhedron& polyhedron) {
+  NearPoint near_polytope(const StoredPolyhedron& polyhedron) {
+    const std::vector<Point3> vertices = to_vector(polyhedron.vertices);
     std::vector<Plane> through;
-    for (const Facet& facet : polyhedron.facets) {
-      const Sign side = side_of_facet(polyhedron, facet);
+    for (const Corners facet : polyhedron.facets) {
+      const Sign side = side_of_facet(vertices, facet);
       if (side == Sign::Positive) {
         return {Membership::Out, LocalPlace::decided(Membership::Out), {}};
       }
-      if (side == Sign::Zero) through.push_back(plane_of(polyhedron, facet));
+      if (side == Sign::Zero) through.push_back(plane_of(vertices, facet));
     }
     return cone(through);
   }
 
-  bool holds_point(const Polyhedron& polyhedron, const Facet& facet) const {
-    if (side_of_facet(polyhedron, facet) != Sign::Zero) return false;
-    const Plane plane = plane_of(polyhedron, facet);
+  bool holds_point(std::span<const Point3> vertices, Corners facet) const {
+    if (side_of_facet(vertices, facet) != Sign::Zero) return false;
+    const Plane plane = plane_of(vertices, facet);
     const Vector3 normal{plane.a, plane.b, plane.c};
     for (std::size_t i = 0; i < facet.size(); ++i) {
-      const Point3& from = polyhedron.vertices[facet[i]];
-      const Point3& to = polyhedron.vertices[facet[(i + 1) % facet.size()]];
+      const Point3& from = vertices[facet[i]];
+      const Point3& to = vertices[facet[(i + 1) % facet.size()]];
       if (sgn(dot(cross(to - from, point_ - from), normal)) < 0) return false;
     }
     return true;
   }
 
-  bool in_bounding_box(const Polyhedron& polyhedron) const {
-    DoubleBox box = box_of(polyhedron.vertices.front());
-    for (const Point3& vertex : polyhedron.vertices) box = join(box, box_of(vertex));
+  bool in_bounding_box(std::span<const Point3> vertices) const {
+    DoubleBox box = box_of(vertices.front());
+    for (const Point3& vertex : vertices) box = join(box, box_of(vertex));
     return meet(box, box_of(point_));
   }
 
-  NearPoint near_mesh(const Primitive& primitive, const Polyhedron& polyhedron) {
-    if (!in_bounding_box(polyhedron)) {
+  NearPoint near_mesh(const Primitive& primitive, const StoredPolyhedron& polyhedron) {
+    const std::vector<Point3> vertices = to_vector(polyhedron.vertices);
+    if (!in_bounding_box(vertices)) {
       return {Membership::Out, LocalPlace::decided(Membership::Out), {}};
     }
     std::vector<std::size_t> holding;
     for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
-      if (holds_point(polyhedron, polyhedron.facets[f])) holding.push_back(f);
+      if (holds_point(vertices, polyhedron.facets[f])) holding.push_back(f);
     }
     const auto corners_of = [&](std::size_t f) {
       std::vector<Point3> corners;
-      for (const std::uint32_t v : polyhedron.facets[f]) corners.push_back(polyhedron.vertices[v]);
+      for (const std::uint32_t v : polyhedron.facets[f]) corners.push_back(vertices[v]);
       return corners;
     };
     if (holding.empty()) {
       const auto bounds_of = [&](std::size_t f) {
-        DoubleBox box = box_of(polyhedron.vertices[polyhedron.facets[f][0]]);
+        DoubleBox box = box_of(vertices[polyhedron.facets[f][0]]);
         for (const std::uint32_t v : polyhedron.facets[f]) {
-          box = join(box, box_of(polyhedron.vertices[v]));
+          box = join(box, box_of(vertices[v]));
         }
         return box;
       };

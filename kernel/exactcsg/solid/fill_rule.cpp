@@ -21,6 +21,7 @@
 #include "exactcsg/solid/facet_stabbing.hpp"
 #include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/polyhedron_check.hpp"
+#include "exactcsg/solid/prepared_polyhedron.hpp"
 #include "exactcsg/solid/whole_facets.hpp"
 
 namespace exactcsg {
@@ -29,7 +30,7 @@ namespace {
 
 // A surface that was checked, and which facets meet others in more than common vertices and edges.
 struct Surface {
-  std::shared_ptr<const Polyhedron> polyhedron;
+  PolyhedralMesh mesh;
   // By facet: the others that it meets so are partners[begins[f]] ... partners[begins[f + 1]].
   std::vector<std::uint32_t> begins;
   std::vector<FacetIndex> partners;
@@ -41,7 +42,7 @@ struct Surface {
 };
 
 void add_partners(Surface& surface, const std::vector<std::array<FacetIndex, 2>>& pairs) {
-  surface.begins.assign(surface.polyhedron->facets.size() + 1, 0);
+  surface.begins.assign(surface.mesh.polyhedron->facets.size() + 1, 0);
   for (const auto& [f, g] : pairs) {
     ++surface.begins[f + 1];
     ++surface.begins[g + 1];
@@ -58,14 +59,13 @@ void add_partners(Surface& surface, const std::vector<std::array<FacetIndex, 2>>
 }
 
 Surface checked(Polyhedron given, unsigned threads) {
-  Surface surface;
-  surface.polyhedron =
-      std::make_shared<const Polyhedron>(with_distinct_vertices(std::move(given), threads));
-  const Polyhedron& polyhedron = *surface.polyhedron;
+  const Polyhedron polyhedron = with_distinct_vertices(std::move(given), threads);
   const PolyhedronSigns signs(polyhedron.vertices);
   const std::vector<FacetFrame> frames = check_facets(polyhedron, signs, threads);
   const std::vector<HalfEdge> edges = half_edges(polyhedron, threads);
   check_closed(polyhedron, edges);
+  Surface surface;
+  surface.mesh = {store_mesh(polyhedron, threads)};
   add_partners(surface, improper_pairs(polyhedron, signs, frames, threads));
   surface.part = manifold_parts(polyhedron, edges,
                                 [&](FacetIndex f) { return surface.partners_of(f).empty(); });
@@ -73,7 +73,7 @@ Surface checked(Polyhedron given, unsigned threads) {
 }
 
 Scene scene_of(const Surface& surface) {
-  Scene scene = make_scene(Solid::primitive(Primitive{PolyhedralMesh{surface.polyhedron}}));
+  Scene scene = make_scene(Solid::primitive(Primitive{surface.mesh}));
   scene.primitives.front().meets_itself = true;
   return scene;
 }

@@ -101,14 +101,14 @@ std::optional<PrimitiveIndex> GrowingScene::find(const Primitive& primitive) con
     if (found == table.end()) return std::nullopt;
     return found->second;
   };
-  if (const Polyhedron* polyhedron = polyhedron_of(primitive)) {
+  if (const StoredPolyhedron* polyhedron = polyhedron_of(primitive)) {
     return found_in(numbers_.polyhedra, polyhedron);
   }
   return found_in(numbers_.half_spaces, std::get<HalfSpace>(primitive.shape).plane);
 }
 
 void GrowingScene::number(const Primitive& primitive, PrimitiveIndex index) {
-  if (const Polyhedron* polyhedron = polyhedron_of(primitive)) {
+  if (const StoredPolyhedron* polyhedron = polyhedron_of(primitive)) {
     numbers_.polyhedra.emplace(polyhedron, index);
   } else {
     numbers_.half_spaces.emplace(std::get<HalfSpace>(primitive.shape).plane, index);

@@ -50,7 +50,7 @@ class GrowingScene {
     bool operator()(const Plane& p, const Plane& q) const;
   };
   struct Numbers {
-    std::unordered_map<const Polyhedron*, PrimitiveIndex> polyhedra;
+    std::unordered_map<const StoredPolyhedron*, PrimitiveIndex> polyhedra;
     std::map<Plane, PrimitiveIndex, PlaneLess> half_spaces;
   };
 

@@ -141,20 +141,6 @@ void reorder(std::span<const std::uint32_t> order, std::vector<Item>& items, uns
   });
 }
 
-template <class T>
-void prefetch(const T* item) {
-  constexpr std::size_t cache_line = 64;
-  const char* const bytes = reinterpret_cast<const char*>(item);
-  for (std::size_t at = 0; at < sizeof(T); at += cache_line) __builtin_prefetch(bytes + at);
-  __builtin_prefetch(bytes + sizeof(T) - 1);
-}
-
-void prefetch(const Rational& number) {
-  for (const mpz_srcptr integer : {number.get_num_mpz_t(), number.get_den_mpz_t()}) {
-    __builtin_prefetch(mpz_limbs_read(integer));
-  }
-}
-
 // Input points lie in the order of their primitives, and their limbs elsewhere: a pass in another
 // order waits for most of them unless it asks ahead, for what leads to them first.
 class PointsAhead {
@@ -166,13 +152,14 @@ class PointsAhead {
     constexpr std::size_t distance = 6;  // which takes longer than a line of memory to arrive
     if (i + 3 * distance < wanted_.size()) vertices_.prefetch_place(vertex(i + 3 * distance));
     if (i + 2 * distance < wanted_.size()) {
-      const std::uint32_t v = vertex(i + 2 * distance);
-      vertices_.prefetch(v);
-      if (vertices_.is_point(v)) prefetch(&geometry_.point(vertices_.point(v)));
+      vertices_.prefetch(vertex(i + 2 * distance));
     }
     if (i + distance < wanted_.size() && vertices_.is_point(vertex(i + distance))) {
-      const Point3& point = geometry_.point(vertices_.point(vertex(i + distance)));
-      for (std::size_t axis = 0; axis < 3; ++axis) prefetch(coordinate(point, axis));
+      // Of points whose coordinates are as long as doubles the limbs take one line or two.
+      const PointRecord point = geometry_.point(vertices_.point(vertex(i + distance)));
+      const auto* const limbs = static_cast<const mp_limb_t*>(point.address());
+      __builtin_prefetch(limbs);
+      __builtin_prefetch(limbs + 6);
     }
   }
 

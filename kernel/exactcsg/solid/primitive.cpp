@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exactcsg/solid/polyhedron_check.hpp"
+#include "exactcsg/solid/prepared_polyhedron.hpp"
 #include "exactcsg/solid/primitive_in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 
@@ -19,10 +20,6 @@ void require_outward(const Polyhedron& polyhedron, const PolyhedronSigns& signs)
                                       "facets counter-clockwise seen from outside"});
 }
 
-PolyhedralMesh share_mesh(Polyhedron polyhedron) {
-  return {std::make_shared<const Polyhedron>(std::move(polyhedron))};
-}
-
 }  // namespace
 
 HalfSpace make_half_space(const Rational& a, const Rational& b, const Rational& c,
@@ -30,8 +27,13 @@ HalfSpace make_half_space(const Rational& a, const Rational& b, const Rational& 
   return {make_plane(a, b, c, d)};
 }
 
-ConvexPolytope make_convex_polytope_unchecked(Polyhedron polyhedron) {
-  return {std::make_shared<const Polyhedron>(std::move(polyhedron))};
+ConvexPolytope make_convex_polytope_unchecked(const Polyhedron& polyhedron) {
+  return {store_polytope(polyhedron)};
+}
+
+ConvexPolytope make_convex_polytope_unchecked(std::span<const Point3> vertices,
+                                              const ConvexFacets& facets) {
+  return {store_image(vertices, facets.planes())};
 }
 
 ConvexPolytope make_box(const Point3& lower, const Point3& upper) {
@@ -47,7 +49,7 @@ ConvexPolytope make_box(const Point3& lower, const Point3& upper) {
                             (corner & 4U) != 0 ? upper.z : lower.z});
   }
   box.facets = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  return make_convex_polytope_unchecked(std::move(box));
+  return make_convex_polytope_unchecked(box);
 }
 
 PolyhedralMesh make_mesh(Polyhedron polyhedron) { return make_mesh(std::move(polyhedron), 1); }
@@ -62,7 +64,7 @@ PolyhedralMesh make_mesh(Polyhedron polyhedron, unsigned threads) {
   const BoxHierarchy hierarchy(facet_boxes(polyhedron, signs, threads));
   check_crossings(polyhedron, signs, frames, hierarchy, threads);
   check_winding(polyhedron, signs, frames, edges, hierarchy);
-  return share_mesh(std::move(polyhedron));
+  return {store_mesh(polyhedron, threads)};
 }
 
 PolyhedralMesh make_mesh_unchecked(Polyhedron polyhedron) {
@@ -71,7 +73,7 @@ PolyhedralMesh make_mesh_unchecked(Polyhedron polyhedron) {
   check_facets(polyhedron, signs);
   check_closed(polyhedron, half_edges(polyhedron));
   require_outward(polyhedron, signs);
-  return share_mesh(std::move(polyhedron));
+  return {store_mesh(polyhedron)};
 }
 
 }  // namespace exactcsg

@@ -2,7 +2,8 @@
 #pragma once
 
 // The leaves of a solid: half-spaces, convex polytopes and closed polyhedral meshes, with exact
-// coordinates. Immutable; copying a Primitive copies a handle. [Exact]
+// coordinates. Immutable; copying a Primitive copies a handle. Points are rounded and planes found
+// where primitives are made, once for all evaluations. [Exact]
 //
 // LAW primitive.1  a primitive is a regular closed set (the closure of its interior) with non-empty
 // interior and complement.
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "exactcsg/number/point.hpp"
+#include "exactcsg/solid/polyhedron.hpp"
 
 namespace exactcsg {
 
@@ -22,22 +24,12 @@ struct HalfSpace {
   Plane plane;  // {x : a x + b y + c z + d <= 0}
 };
 
-// The vertices of a convex planar polygon, counter-clockwise seen from outside the solid.
-using Facet = std::vector<std::uint32_t>;
-
-// Vertices and facets of a bounded polyhedron. Facets are strictly planar convex polygons of
-// non-zero area (a vertex in the middle of a straight side is allowed in a mesh).
-struct Polyhedron {
-  std::vector<Point3> vertices;
-  std::vector<Facet> facets;
-};
-
 // Both are handles of immutable polyhedra; equal handles are equal primitives.
 struct ConvexPolytope {
-  std::shared_ptr<const Polyhedron> polyhedron;
+  std::shared_ptr<const StoredPolyhedron> polyhedron;
 };
 struct PolyhedralMesh {
-  std::shared_ptr<const Polyhedron> polyhedron;
+  std::shared_ptr<const StoredPolyhedron> polyhedron;
 };
 
 using PrimitiveShape = std::variant<HalfSpace, ConvexPolytope, PolyhedralMesh>;
@@ -49,7 +41,7 @@ struct Primitive {
 };
 
 // Null for a half-space; else what the primitive is a handle of.
-inline const Polyhedron* polyhedron_of(const Primitive& primitive) noexcept {
+inline const StoredPolyhedron* polyhedron_of(const Primitive& primitive) noexcept {
   if (const auto* polytope = std::get_if<ConvexPolytope>(&primitive.shape)) {
     return polytope->polyhedron.get();
   }
@@ -71,7 +63,10 @@ ConvexPolytope make_convex_polytope(Polyhedron polyhedron);
 
 // The same without the global checks, for generators whose output is convex by construction (box,
 // sphere, cylinder). Facets must be planar, convex, and pairwise not coplanar.
-ConvexPolytope make_convex_polytope_unchecked(Polyhedron polyhedron);
+ConvexPolytope make_convex_polytope_unchecked(const Polyhedron& polyhedron);
+// Likewise, of many polytopes with the same facets. COST: less time, and no memory for the facets
+ConvexPolytope make_convex_polytope_unchecked(std::span<const Point3> vertices,
+                                              const ConvexFacets& facets);
 
 // The intersection of half-spaces. THROWS Error(UnboundedSolid | FlatPolytope)
 // COST: O(n^4) signs; meant for small n.

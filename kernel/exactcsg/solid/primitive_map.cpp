@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/solid/prepared_polyhedron.hpp"
 #include "exactcsg/solid/primitive_in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 
@@ -31,21 +32,52 @@ Rational map_coordinate(const std::array<Rational, 4>& row, const Point3& p) {
   return sum;
 }
 
-std::shared_ptr<const Polyhedron> map_polyhedron(const AffineMap& map, bool mirrors,
-                                                 const Polyhedron& polyhedron, unsigned threads) {
-  auto image = std::make_shared<Polyhedron>();
-  image->vertices.resize(polyhedron.vertices.size());
-  in_parallel_parts(threads, image->vertices.size(), [&](std::size_t v) {
-    const Point3& p = polyhedron.vertices[v];
-    image->vertices[v] = {map_coordinate(map.m[0], p), map_coordinate(map.m[1], p),
-                          map_coordinate(map.m[2], p)};
+std::vector<Point3> map_points(const AffineMap& map, const ExactPoints& points, unsigned threads) {
+  std::vector<Point3> images(points.size());
+  in_parallel_parts(threads, images.size(), [&](std::size_t v) {
+    const Point3 p = points[v];
+    images[v] = {map_coordinate(map.m[0], p), map_coordinate(map.m[1], p),
+                 map_coordinate(map.m[2], p)};
   });
-  image->facets.resize(polyhedron.facets.size());
-  in_parallel_parts(threads, image->facets.size(), [&](std::size_t f) {
-    image->facets[f] = polyhedron.facets[f];
-    if (mirrors) std::reverse(image->facets[f].begin(), image->facets[f].end());
-  });
-  return image;
+  return images;
+}
+
+bool is_translation(const AffineMap& map) {
+  const AffineMap identity = AffineMap::identity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!std::equal(map.m[i].begin(), map.m[i].begin() + 3, identity.m[i].begin())) return false;
+  }
+  return true;
+}
+
+Polyhedron with_facets(std::vector<Point3> vertices, const FlatFacets& facets, bool turned_round) {
+  Polyhedron result{std::move(vertices), {}};
+  result.facets.reserve(facets.size());
+  for (const auto facet : facets) {
+    Facet& copy = result.facets.emplace_back(facet.begin(), facet.end());
+    if (turned_round) std::reverse(copy.begin(), copy.end());
+  }
+  return result;
+}
+
+ConvexPolytope image_of(const AffineMap& map, bool mirrors, const ConvexPolytope& polytope,
+                        unsigned threads) {
+  const StoredPolyhedron& original = *polytope.polyhedron;
+  std::vector<Point3> vertices = map_points(map, original.vertices, threads);
+  if (original.prepared && !mirrors) {
+    return {store_image(vertices, original.prepared->facets, threads)};
+  }
+  return {store_polytope(with_facets(std::move(vertices), original.facets, mirrors))};
+}
+
+PolyhedralMesh image_of(const AffineMap& map, bool mirrors, const PolyhedralMesh& mesh,
+                        unsigned threads) {
+  const StoredPolyhedron& original = *mesh.polyhedron;
+  std::vector<Point3> vertices = map_points(map, original.vertices, threads);
+  if (original.prepared && is_translation(map)) {
+    return {store_image(vertices, original.prepared->facets, threads)};
+  }
+  return {store_mesh(with_facets(std::move(vertices), original.facets, mirrors), threads)};
 }
 
 }  // namespace
@@ -66,7 +98,7 @@ Primitive apply(const AffineMap& map, const Primitive& primitive, unsigned threa
         if constexpr (std::is_same_v<Shape, HalfSpace>) {
           return HalfSpace{apply(map, original.plane)};
         } else {
-          return Shape{map_polyhedron(map, sign == Sign::Negative, *original.polyhedron, threads)};
+          return image_of(map, sign == Sign::Negative, original, threads);
         }
       },
       primitive.shape);

@@ -14,11 +14,11 @@ Solid apply(const AffineMap& map, const Solid& solid) {
   }
   if (map == AffineMap::identity()) return solid;
   // Different nodes may hold the same polyhedron: keep it one. A table for each kind of shape.
-  std::array<std::unordered_map<const Polyhedron*, PrimitiveShape>,
+  std::array<std::unordered_map<const StoredPolyhedron*, PrimitiveShape>,
              std::variant_size_v<PrimitiveShape>>
       images;
   return csg::map(solid, [&](const Primitive& primitive) {
-    const Polyhedron* polyhedron = polyhedron_of(primitive);
+    const StoredPolyhedron* polyhedron = polyhedron_of(primitive);
     if (polyhedron == nullptr) return apply(map, primitive);
     auto& known = images[primitive.shape.index()];
     const auto found = known.find(polyhedron);

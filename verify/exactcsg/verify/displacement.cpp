@@ -57,14 +57,14 @@ double distance(const Point3& p, const Point3& q) {
   return length(approximate(Point3{p.x - q.x, p.y - q.y, p.z - q.z}));
 }
 
-std::vector<PlainVector> positions_of(const Polyhedron& polyhedron) {
+std::vector<PlainVector> positions_of(const StoredPolyhedron& polyhedron) {
   std::vector<PlainVector> result;
   for (const Point3& p : polyhedron.vertices) result.push_back(approximate(p));
   return result;
 }
 
 // The largest distance of a vertex of `from` to the nearest vertex of `to`.
-double one_sided_distance(const Polyhedron& from, const Polyhedron& to) {
+double one_sided_distance(const StoredPolyhedron& from, const StoredPolyhedron& to) {
   const auto candidates = positions_of(to);
   double largest = 0;
   for (const Point3& p : from.vertices) {
@@ -78,7 +78,7 @@ double one_sided_distance(const Polyhedron& from, const Polyhedron& to) {
   return largest;
 }
 
-double paired_distance(const Polyhedron& a, const Polyhedron& b) {
+double paired_distance(const StoredPolyhedron& a, const StoredPolyhedron& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.vertices.size(); ++i) {
     largest = std::max(largest, distance(a.vertices[i], b.vertices[i]));
@@ -93,10 +93,10 @@ struct Sizes {
   std::size_t triangles = 0;
 };
 
-Sizes sizes_of(const Polyhedron& polyhedron) {
+Sizes sizes_of(const StoredPolyhedron& polyhedron) {
   const auto at = positions_of(polyhedron);
   Sizes sizes;
-  for (const Facet& facet : polyhedron.facets) {
+  for (const auto facet : polyhedron.facets) {
     for (std::size_t i = 0; i < facet.size(); ++i) {
       sizes.perimeters += length(at[facet[(i + 1) % facet.size()]] - at[facet[i]]);
     }
@@ -116,13 +116,13 @@ struct Contribution {
   double displacement = 0;
 };
 
-Contribution convex_contribution(const Polyhedron& a, const Polyhedron& b) {
+Contribution convex_contribution(const StoredPolyhedron& a, const StoredPolyhedron& b) {
   const double d = std::max(one_sided_distance(a, b), one_sided_distance(b, a)) * slack;
   const Sizes sizes = sizes_of(a);
   return {2 * sizes.area * d + pi / 4 * sizes.perimeters * d * d + 4 * pi / 3 * d * d * d, d};
 }
 
-Contribution mesh_contribution(const Polyhedron& a, const Polyhedron& b) {
+Contribution mesh_contribution(const StoredPolyhedron& a, const StoredPolyhedron& b) {
   const double d = paired_distance(a, b) * slack;
   const Sizes sizes = sizes_of(a);
   return {d * (sizes.area + sizes.sides * d + 2 * static_cast<double>(sizes.triangles) * d * d), d};
@@ -140,8 +140,8 @@ Contribution evaluated_contribution(const Primitive& a, const Primitive& b) {
 }
 
 Contribution contribution(const Primitive& a, const Primitive& b) {
-  const Polyhedron* p = polyhedron_of(a);
-  const Polyhedron* q = polyhedron_of(b);
+  const StoredPolyhedron* p = polyhedron_of(a);
+  const StoredPolyhedron* q = polyhedron_of(b);
   if (p == nullptr || q == nullptr) return evaluated_contribution(a, b);
   if (p == q) return {};
   const bool convex = std::holds_alternative<ConvexPolytope>(a.shape) &&

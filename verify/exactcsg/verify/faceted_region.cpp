@@ -591,8 +591,8 @@ class Faceter {
     if (!has(Sign::Negative)) return Solid::empty();
     if (!has(Sign::Positive)) return solid_;
     std::vector<HalfSpace> half_spaces{HalfSpace{plane}};
-    const Polyhedron& block = *block_.polyhedron;
-    for (const Facet& facet : block.facets) {
+    const StoredPolyhedron& block = *block_.polyhedron;
+    for (const auto facet : block.facets) {
       half_spaces.push_back({plane_through(block.vertices[facet[0]], block.vertices[facet[1]],
                                            block.vertices[facet[2]])});
     }

@@ -200,7 +200,7 @@ Nef nef_of(const Polyhedron& polyhedron) {
 }
 
 Nef nef_of_box(const Point3& lower, const Point3& upper) {
-  return nef_of(*make_box(lower, upper).polyhedron);
+  return nef_of(to_polyhedron(*make_box(lower, upper).polyhedron));
 }
 
 // ---- half-spaces ------------------------------------------------------------------------------
@@ -280,7 +280,7 @@ Bounds bounds_of(const Solid& solid) {
         bounds.needed = true;
         largest.add(half->plane);
       } else {
-        add_planes(*polyhedron_of(primitive), largest);
+        add_planes(to_polyhedron(*polyhedron_of(primitive)), largest);
       }
       continue;
     }
@@ -294,7 +294,7 @@ Nef nef_of(const Primitive& primitive, const Bounds& bounds) {
   if (const auto* half = std::get_if<HalfSpace>(&primitive.shape)) {
     return nef_of_half_space(half->plane, bounds.box);
   }
-  return nef_of(*polyhedron_of(primitive));
+  return nef_of(to_polyhedron(*polyhedron_of(primitive)));
 }
 
 Nef combine(csg::BooleanOperator operation, std::vector<Nef> operands) {

@@ -304,8 +304,7 @@ class ExactBuilder {
     if (placement.singular) return result;
     add_rounding(shape->rounding * stretch(placement.space));
     result.solid = Solid::primitive(
-        {make_convex_polytope_unchecked(place(placement.space * shape->map, *shape->polyhedron)),
-         origin(node)});
+        {place_polytope(placement.space * shape->map, *shape->polyhedron), origin(node)});
     return result;
   }
 

@@ -523,8 +523,8 @@ class GridBuilder {
   static DoubleFigure facets_from_above(const Solid& hull) {
     DoubleFigure figure;
     if (!hull.is_primitive()) return figure;
-    const Polyhedron& shape = *std::get<ConvexPolytope>(hull.primitive().shape).polyhedron;
-    for (const auto& facet : shape.facets) {
+    const StoredPolyhedron& shape = *std::get<ConvexPolytope>(hull.primitive().shape).polyhedron;
+    for (const auto facet : shape.facets) {
       DoubleOutline& outline = figure.outlines.emplace_back();
       for (const std::uint32_t v : facet) {
         const Point3& p = shape.vertices[v];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "exactcsg/io/openscad/degree_trigonometry.hpp"
@@ -181,8 +182,7 @@ std::vector<Direction> circle_directions(std::size_t n) {
 Rational unit_rounding_bound() { return Rational(1, Integer(1) << 48U); }
 
 IntegerPolyhedron with_common_denominator(const Polyhedron& polyhedron) {
-  IntegerPolyhedron result;
-  result.facets = polyhedron.facets;
+  IntegerPolyhedron result{{}, 1, ConvexFacets(polyhedron)};
   for (const Point3& p : polyhedron.vertices) {
     for (const Rational* c : {&p.x, &p.y, &p.z}) make_multiple(result.denominator, c->get_den());
   }
@@ -237,7 +237,9 @@ class CommonDenominator {
 
 }  // namespace
 
-Polyhedron place(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
+namespace {
+
+std::vector<Point3> placed_vertices(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
   // With one denominator for the map, too, a coordinate costs three products and one reduction.
   Integer map_denominator{1};
   for (const auto& row : map.m) {
@@ -253,8 +255,8 @@ Polyhedron place(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
   }
   const CommonDenominator denominator(map_denominator * polyhedron.denominator);
 
-  Polyhedron result;
-  result.vertices.reserve(polyhedron.vertices.size());
+  std::vector<Point3> result;
+  result.reserve(polyhedron.vertices.size());
   Integer sum;
   const auto coordinate = [&](const std::array<Integer, 4>& row, const std::array<Integer, 3>& v) {
     sum = row[3];
@@ -264,20 +266,32 @@ Polyhedron place(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
     return denominator.reduced(sum);
   };
   for (const auto& v : polyhedron.vertices) {
-    result.vertices.push_back(
-        {coordinate(rows[0], v), coordinate(rows[1], v), coordinate(rows[2], v)});
-  }
-  result.facets = polyhedron.facets;
-  if (determinant(map) < 0) {
-    for (Facet& facet : result.facets) std::reverse(facet.begin(), facet.end());
+    result.push_back({coordinate(rows[0], v), coordinate(rows[1], v), coordinate(rows[2], v)});
   }
   return result;
+}
+
+}  // namespace
+
+Polyhedron place(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
+  Polyhedron result{placed_vertices(map, polyhedron), {}};
+  const bool mirrors = determinant(map) < 0;
+  for (const auto facet : polyhedron.facets.facets()) {
+    Facet& copy = result.facets.emplace_back(facet.begin(), facet.end());
+    if (mirrors) std::reverse(copy.begin(), copy.end());
+  }
+  return result;
+}
+
+ConvexPolytope place_polytope(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
+  if (determinant(map) < 0) return make_convex_polytope_unchecked(place(map, polyhedron));
+  return make_convex_polytope_unchecked(placed_vertices(map, polyhedron), polyhedron.facets);
 }
 
 struct ShapeCache::Tables {
   std::map<std::size_t, IntegerPolyhedron> spheres;
   std::map<std::size_t, IntegerPolyhedron> cylinders;
-  IntegerPolyhedron box;
+  std::optional<IntegerPolyhedron> box;
 
   // The circle, convex as the shapes' builders need it.
   static std::vector<Direction> circle(std::size_t n) {
@@ -331,13 +345,16 @@ const IntegerPolyhedron& ShapeCache::cylinder(std::size_t n) {
 }
 
 const IntegerPolyhedron& ShapeCache::box() {
-  if (!tables_->box.vertices.empty()) return tables_->box;
-  for (int corner = 0; corner < 8; ++corner) {
-    tables_->box.vertices.push_back({corner & 1, (corner >> 1) & 1, (corner >> 2) & 1});
+  if (!tables_->box) {
+    Polyhedron box;
+    for (int corner = 0; corner < 8; ++corner) {
+      box.vertices.push_back({corner & 1, (corner >> 1) & 1, (corner >> 2) & 1});
+    }
+    box.facets = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                  {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    tables_->box = with_common_denominator(box);
   }
-  tables_->box.facets = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                         {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  return tables_->box;
+  return *tables_->box;
 }
 
 IntegerPolyhedron ShapeCache::frustum(std::size_t n, const Rational& ratio) {

@@ -59,16 +59,19 @@ std::vector<Direction> circle_directions(std::size_t n);
 // numbers too, and a product of two of them is off by at most 5.3 * 2^-51.
 Rational unit_rounding_bound();
 
-// A polyhedron whose vertices share one denominator, so that it is mapped with integers alone.
+// A convex polytope whose vertices share one denominator, so that it is mapped with integers alone.
 struct IntegerPolyhedron {
   std::vector<std::array<Integer, 3>> vertices;
   Integer denominator{1};
-  std::vector<Facet> facets;
+  ConvexFacets facets;
 };
+// REQUIRES a convex polytope, as for make_convex_polytope_unchecked
 IntegerPolyhedron with_common_denominator(const Polyhedron& polyhedron);
 
 // The image; facets are turned round if the map mirrors. REQUIRES determinant(map) != 0
 Polyhedron place(const AffineMap& map, const IntegerPolyhedron& polyhedron);
+// Images under maps that do not mirror share the facets.
+ConvexPolytope place_polytope(const AffineMap& map, const IntegerPolyhedron& polyhedron);
 
 // Shapes of radius 1. Sphere: OpenSCAD's rings. Cylinder: height 0 to 1. Cached by n: two nodes
 // with the same n share one shape. Not to be called from several threads on one cache.

@@ -155,8 +155,9 @@ Solid hull_of(std::vector<Point3> points) {
   std::vector<Triangle> triangles;
   CGAL::convex_hull_3(candidates.begin(), candidates.end(), vertices, triangles);
   turn_outwards(signs, vertices, triangles);
-  Polyhedron polyhedron = polyhedron_with(points, vertices, Merger(vertices, triangles).faces());
-  return Solid::primitive({make_convex_polytope_unchecked(std::move(polyhedron))});
+  const Polyhedron polyhedron =
+      polyhedron_with(points, vertices, Merger(vertices, triangles).faces());
+  return Solid::primitive({make_convex_polytope_unchecked(polyhedron)});
 }
 
 void add_outline_points(const PlanarTree& tree, std::vector<Point2>& points) {
@@ -173,7 +174,7 @@ Solid hull(const Solid& solid) {
     return hull_of(to_vector(evaluate(solid).vertices));
   std::vector<Point3> points;
   csg::for_each_primitive(solid, [&](const Primitive& primitive) {
-    const std::vector<Point3>& vertices = polyhedron_of(primitive)->vertices;
+    const ExactPoints& vertices = polyhedron_of(primitive)->vertices;
     points.insert(points.end(), vertices.begin(), vertices.end());
   });
   return hull_of(std::move(points));

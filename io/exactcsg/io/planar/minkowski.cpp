@@ -98,7 +98,7 @@ Part part_of(const Solid& solid) {
   if (solid.is_primitive()) {
     if (const auto* polytope = std::get_if<ConvexPolytope>(&solid.primitive().shape)) {
       part.convex = true;
-      part.corners = polytope->polyhedron->vertices;
+      part.corners = to_vector(polytope->polyhedron->vertices);
       return part;
     }
   }

@@ -16,7 +16,7 @@ namespace {
 Point2 flattened(const Point3& p) { return {p.x, p.y}; }
 
 // A convex polytope's shadow is the hull of its vertices'.
-PlanarTree shadow_of_polytope(const Polyhedron& polyhedron) {
+PlanarTree shadow_of_polytope(const StoredPolyhedron& polyhedron) {
   PlanarFigure figure;
   auto& path = figure.paths.emplace_back();
   for (const Point3& p : polyhedron.vertices) path.push_back(flattened(p));
@@ -26,15 +26,16 @@ PlanarTree shadow_of_polytope(const Polyhedron& polyhedron) {
 }
 
 // Faces that look upward cover the shadow.
-std::vector<PlanarTree> shadows_of_facets(const Polyhedron& polyhedron) {
+std::vector<PlanarTree> shadows_of_facets(const StoredPolyhedron& polyhedron) {
+  const std::vector<Point3> vertices = to_vector(polyhedron.vertices);
   std::vector<PlanarTree> figures;
-  for (const Facet& facet : polyhedron.facets) {
+  for (const auto facet : polyhedron.facets) {
     PlanarFigure figure;
     auto& path = figure.paths.emplace_back();
     Rational twice_area{0};
     for (std::size_t i = 0; i < facet.size(); ++i) {
-      const Point3& p = polyhedron.vertices[facet[i]];
-      const Point3& q = polyhedron.vertices[facet[(i + 1) % facet.size()]];
+      const Point3& p = vertices[facet[i]];
+      const Point3& q = vertices[facet[(i + 1) % facet.size()]];
       twice_area += p.x * q.y - p.y * q.x;
       path.push_back(flattened(p));
     }
@@ -73,7 +74,7 @@ PlanarTree shadow(const Solid& solid) {
   };
   if (only_unites(solid) && is_bounded(solid)) {
     csg::for_each_primitive(solid, [&](const Primitive& primitive) {
-      const Polyhedron& polyhedron = *polyhedron_of(primitive);
+      const StoredPolyhedron& polyhedron = *polyhedron_of(primitive);
       if (std::holds_alternative<ConvexPolytope>(primitive.shape)) {
         figures.push_back(shadow_of_polytope(polyhedron));
       } else {

@@ -85,7 +85,7 @@ class Revolution {
     }
     if (!closed_) add_ends();
     // The outline turned by different angles meets itself on the axis only: nothing can cross.
-    if (convex) return Solid::primitive({make_convex_polytope_unchecked(std::move(polyhedron_))});
+    if (convex) return Solid::primitive({make_convex_polytope_unchecked(polyhedron_)});
     return Solid::primitive({make_mesh_unchecked(std::move(polyhedron_))});
   }
 
