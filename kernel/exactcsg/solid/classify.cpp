@@ -2,6 +2,9 @@
 #include "exactcsg/solid/classify.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
 #include <unordered_map>
 
 #include "exactcsg/csg/membership.hpp"
@@ -9,6 +12,7 @@
 #include "exactcsg/solid/local_form.hpp"
 #include "exactcsg/solid/nearest_crossing.hpp"
 #include "exactcsg/solid/neighbourhood.hpp"
+#include "exactcsg/solid/prepared_polyhedron.hpp"
 
 namespace exactcsg {
 
@@ -24,7 +28,7 @@ struct ConeNode {
 };
 
 // A primitive near the point: In or Out all around, or the cone that it looks like there.
-struct NearPoint {
+struct NearPrimitive {
   Membership membership = Membership::Unknown;
   LocalPlace root = LocalPlace::decided(Membership::Out);
   std::vector<ConeNode> nodes;
@@ -32,7 +36,7 @@ struct NearPoint {
 
 class SinglePoint {
  public:
-  explicit SinglePoint(const Point3& point) : point_(point) {}
+  explicit SinglePoint(const Point3& point) : point_(point), near_(approximate(point)) {}
 
   PointClass classify(const Solid& solid) {
     const Membership around = csg::membership_of(
@@ -46,7 +50,7 @@ class SinglePoint {
   }
 
  private:
-  static Membership walk(const NearPoint& near, std::span<const Sign> sides) {
+  static Membership walk(const NearPrimitive& near, std::span<const Sign> sides) {
     if (near.membership != Membership::Unknown) return near.membership;
     LocalPlace place = near.root;
     while (!place.is_decided()) {
@@ -57,7 +61,7 @@ class SinglePoint {
   }
 
   // Each primitive is looked at once, however often it occurs.
-  const NearPoint& near_point(const Primitive& primitive) {
+  const NearPrimitive& near_point(const Primitive& primitive) {
     if (const auto* half_space = std::get_if<HalfSpace>(&primitive.shape)) {
       return remember(&primitive, [&] { return near_half_space(*half_space); });
     }
@@ -70,7 +74,7 @@ class SinglePoint {
   }
 
   template <class Look>
-  const NearPoint& remember(const void* key, Look look) {
+  const NearPrimitive& remember(const void* key, Look look) {
     const auto [place, is_new] = known_.try_emplace(key);
     if (is_new) place->second = look();
     return place->second;
@@ -99,8 +103,8 @@ class SinglePoint {
     return sense > 0 ? ConeNode{number, outside, inside} : ConeNode{number, inside, outside};
   }
 
-  NearPoint cone(const std::vector<Plane>& outward_planes) {
-    NearPoint near;
+  NearPrimitive cone(const std::vector<Plane>& outward_planes) {
+    NearPrimitive near;
     if (outward_planes.empty()) {
       near.membership = Membership::In;
       return near;
@@ -116,7 +120,7 @@ class SinglePoint {
     return near;
   }
 
-  NearPoint near_half_space(const HalfSpace& half_space) {
+  NearPrimitive near_half_space(const HalfSpace& half_space) {
     switch (side(half_space.plane, point_)) {
       case Sign::Positive:
         return {Membership::Out, LocalPlace::decided(Membership::Out), {}};
@@ -145,17 +149,38 @@ class SinglePoint {
         facet.size(), [&](std::size_t i) -> const Point3& { return vertices[facet[i]]; }, point_);
   }
 
-  NearPoint near_polytope(const StoredPolyhedron& polyhedron) {
-    const std::vector<Point3> vertices = to_vector(polyhedron.vertices);
+  // Doubles tell on which side of most facets the point lies.
+  NearPrimitive near_polytope(const StoredPolyhedron& polyhedron) {
     std::vector<Plane> through;
-    for (const Corners facet : polyhedron.facets) {
-      const Sign side = side_of_facet(vertices, facet);
+    for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
+      const double near_side = filtered_side(polyhedron, f);
+      if (near_side < 0) continue;
+      if (near_side > 0) return {Membership::Out, LocalPlace::decided(Membership::Out), {}};
+      const std::vector<Point3> corners = corners_of(polyhedron, f);
+      std::vector<std::uint32_t> facet(corners.size());
+      std::iota(facet.begin(), facet.end(), 0U);
+      const Sign side = side_of_facet(corners, facet);
       if (side == Sign::Positive) {
         return {Membership::Out, LocalPlace::decided(Membership::Out), {}};
       }
-      if (side == Sign::Zero) through.push_back(plane_of(vertices, facet));
+      if (side == Sign::Zero) through.push_back(plane_of(corners, facet));
     }
     return cone(through);
+  }
+
+  // A number of the sign of the point's distance from the facet's plane, or zero. Facets of a
+  // polytope have the planes of their numbers.
+  double filtered_side(const StoredPolyhedron& polytope, std::size_t facet) const {
+    if (!polytope.prepared) return 0;
+    return Geometry::filtered_side(polytope.prepared->planes[facet].near, near_);
+  }
+
+  static std::vector<Point3> corners_of(const StoredPolyhedron& polyhedron, std::size_t facet) {
+    std::vector<Point3> corners;
+    for (const std::uint32_t v : polyhedron.facets[facet]) {
+      corners.push_back(polyhedron.vertices[v]);
+    }
+    return corners;
   }
 
   bool holds_point(std::span<const Point3> vertices, Corners facet) const {
@@ -170,26 +195,29 @@ class SinglePoint {
     return true;
   }
 
-  bool in_bounding_box(std::span<const Point3> vertices) const {
-    DoubleBox box = box_of(vertices.front());
-    for (const Point3& vertex : vertices) box = join(box, box_of(vertex));
+  // False only if the point is surely outside.
+  bool may_be_in_bounding_box(const StoredPolyhedron& polyhedron) const {
+    if (!polyhedron.prepared) return true;
+    DoubleBox box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // Vertices are rounded to the nearest double.
+      const PreparedPolyhedron::Bounds& bounds = polyhedron.prepared->bounds[axis];
+      box.lower[axis] = std::nextafter(bounds.lower, -std::numeric_limits<double>::infinity());
+      box.upper[axis] = std::nextafter(bounds.upper, std::numeric_limits<double>::infinity());
+    }
     return meet(box, box_of(point_));
   }
 
-  NearPoint near_mesh(const Primitive& primitive, const StoredPolyhedron& polyhedron) {
-    const std::vector<Point3> vertices = to_vector(polyhedron.vertices);
-    if (!in_bounding_box(vertices)) {
+  NearPrimitive near_mesh(const Primitive& primitive, const StoredPolyhedron& polyhedron) {
+    if (!may_be_in_bounding_box(polyhedron)) {
       return {Membership::Out, LocalPlace::decided(Membership::Out), {}};
     }
+    const std::vector<Point3> vertices = to_vector(polyhedron.vertices);
     std::vector<std::size_t> holding;
     for (std::size_t f = 0; f < polyhedron.facets.size(); ++f) {
       if (holds_point(vertices, polyhedron.facets[f])) holding.push_back(f);
     }
-    const auto corners_of = [&](std::size_t f) {
-      std::vector<Point3> corners;
-      for (const std::uint32_t v : polyhedron.facets[f]) corners.push_back(vertices[v]);
-      return corners;
-    };
+    const auto corners = [&](std::size_t f) { return corners_of(polyhedron, f); };
     if (holding.empty()) {
       const auto bounds_of = [&](std::size_t f) {
         DoubleBox box = box_of(vertices[polyhedron.facets[f][0]]);
@@ -199,14 +227,14 @@ class SinglePoint {
         return box;
       };
       const Membership membership =
-          nearest_crossing(point_, polyhedron.facets.size(), bounds_of, corners_of);
+          nearest_crossing(point_, polyhedron.facets.size(), bounds_of, corners);
       return {membership, LocalPlace::decided(membership), {}};
     }
     return mesh_cone(primitive, holding);
   }
 
   // The facets that hold the point all have planes through it, so their partition does as well.
-  NearPoint mesh_cone(const Primitive& primitive, const std::vector<std::size_t>& holding) {
+  NearPrimitive mesh_cone(const Primitive& primitive, const std::vector<std::size_t>& holding) {
     const Scene scene = make_scene(Solid::primitive(primitive));
     std::vector<FacetPolygon> polygons;
     for (const std::size_t f : holding) {
@@ -215,7 +243,7 @@ class SinglePoint {
     }
     std::vector<LocalNode> nodes;
     TierStatistics statistics;
-    NearPoint near;
+    NearPrimitive near;
     near.root = append_mesh_form(scene.geometry, polygons, nodes, statistics);
     for (const LocalNode& node : nodes) {
       near.nodes.push_back(
@@ -225,8 +253,9 @@ class SinglePoint {
   }
 
   const Point3& point_;
+  ApproximatePoint near_;
   std::vector<Plane> planes_;  // through the point, pairwise different
-  std::unordered_map<const void*, NearPoint> known_;
+  std::unordered_map<const void*, NearPrimitive> known_;
 };
 
 }  // namespace
