@@ -22,8 +22,8 @@ TEST(VertexRow, GivesWhatWasAdded) {
     vertices.push_back(geometry.vertex(PointId{4 - i}));
   }
   VertexRow row(geometry, vertices);
-  VertexRow::Counts next = row.counts();
-  row.grow(2, {vertices.size(), 5});
+  VertexRow::Counts next{vertices.size(), 5};
+  row.grow(2, next);
   for (const Vertex& vertex : vertices) row.set(vertex, next);
   ASSERT_EQ(row.size(), 2 * vertices.size());
   for (std::size_t i = 0; i < row.size(); ++i) {

@@ -63,7 +63,6 @@ class VertexRow {
     resize(threads, places_, places_.size() + more.vertices);
     resize(threads, meeting_points_, meeting_points_.size() + more.meeting_points);
   }
-  Counts counts() const { return {places_.size(), meeting_points_.size()}; }
   // Sets the vertex at `next`, which goes on to the place behind it.
   void set(const Vertex& vertex, Counts& next) {
     if (vertex.is_point) {

@@ -235,10 +235,6 @@ class CommonDenominator {
   Integer odd_;
 };
 
-}  // namespace
-
-namespace {
-
 std::vector<Point3> placed_vertices(const AffineMap& map, const IntegerPolyhedron& polyhedron) {
   // With one denominator for the map, too, a coordinate costs three products and one reduction.
   Integer map_denominator{1};
