@@ -394,51 +394,39 @@ class Merger {
   // How far ahead edges are asked for that are read in another order than they lie in memory.
   static constexpr std::size_t edges_ahead = 16;
 
-  // An edge of a piece by its two ends.
-  struct EdgeOfEnds {
-    std::uint64_t ends;
-    std::uint32_t edge;
-  };
+  static bool have_same_ends(const PieceEdge& a, const PieceEdge& b) {
+    return (a.from == b.from && a.to == b.to) || (a.from == b.to && a.to == b.from);
+  }
 
-  // Edges with the same two ends are neighbours, and of these, edges of one oriented plane.
-  std::vector<EdgeOfEnds> edges_by_ends() const {
-    std::vector<EdgeOfEnds> order;
-    resize(threads_, order, edges_.size());
-    in_parallel_parts(threads_, edges_.size(), [&](std::size_t i) {
-      const auto [low, high] = std::minmax(edges_[i].from, edges_[i].to);
-      order[i] = {(static_cast<std::uint64_t>(low) << 32U) | high, static_cast<std::uint32_t>(i)};
-    });
-    const auto lower_end = [](const EdgeOfEnds& edge) { return edge.ends >> 32U; };
-    const auto less = [&](const EdgeOfEnds& a, const EdgeOfEnds& b) {
-      if (a.ends != b.ends) return a.ends < b.ends;
-      const PieceEdge& p = edges_[a.edge];
-      const PieceEdge& q = edges_[b.edge];
-      if (p.plane != q.plane) return p.plane < q.plane;
-      if (p.from != q.from) return p.from < q.from;
-      return a.edge < b.edge;
+  // Edges with the same two ends become neighbours, and of these, edges of one oriented plane.
+  void sort_by_ends(std::vector<PieceEdge>& edges) const {
+    const auto less = [](const PieceEdge& a, const PieceEdge& b) {
+      const auto [a_low, a_high] = std::minmax(a.from, a.to);
+      const auto [b_low, b_high] = std::minmax(b.from, b.to);
+      return std::tie(a_low, a_high, a.plane, a.from, a.piece, a.side_plane) <
+             std::tie(b_low, b_high, b.plane, b.from, b.piece, b.side_plane);
     };
-    sort_in_buckets(order, vertices_.size(), lower_end, less, threads_);
-    return order;
+    sort_in_buckets(
+        edges, vertices_.size(),
+        [](const PieceEdge& edge) { return std::size_t{std::min(edge.from, edge.to)}; }, less,
+        threads_);
   }
 
   // Of most edges of pieces nothing needs to be summed up along lines: seams, which have the same
   // two ends on both sides, cancel, and where pieces in two planes have one edge in common, that is
   // an edge of the result. The others are returned.
   std::vector<PieceEdge> edges_to_sum() {
-    const std::vector<EdgeOfEnds> order = edges_by_ends();
-    const Parts parts(order.size(),
-                      [&](std::size_t i) { return order[i].ends != order[i - 1].ends; });
+    sort_by_ends(edges_);
+    const Parts parts(edges_.size(),
+                      [&](std::size_t i) { return !have_same_ends(edges_[i], edges_[i - 1]); });
     std::vector<std::vector<PieceEdge>> left(parts.count());
     std::vector<std::vector<SimpleEdge>> simple(parts.count());
     in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       check();
       for (std::size_t i = begin; i < end;) {
         std::size_t group_end = i + 1;
-        while (group_end < end && order[group_end].ends == order[i].ends) ++group_end;
-        for (std::size_t next = i; next < group_end && next + edges_ahead < end; ++next) {
-          __builtin_prefetch(&edges_[order[next + edges_ahead].edge]);
-        }
-        sort_out(std::span(order).subspan(i, group_end - i), left[part], simple[part]);
+        while (group_end < end && have_same_ends(edges_[group_end], edges_[i])) ++group_end;
+        sort_out(std::span(edges_).subspan(i, group_end - i), left[part], simple[part]);
         i = group_end;
       }
     });
@@ -457,20 +445,20 @@ class Merger {
   }
 
   // Of edges with the same two ends.
-  void sort_out(std::span<const EdgeOfEnds> group, std::vector<PieceEdge>& left,
+  void sort_out(std::span<const PieceEdge> group, std::vector<PieceEdge>& left,
                 std::vector<SimpleEdge>& simple) {
     if (group.size() == 2) {
-      const PieceEdge& a = edges_[group[0].edge];
-      const PieceEdge& b = edges_[group[1].edge];
+      const PieceEdge& a = group[0];
+      const PieceEdge& b = group[1];
       if (is_simple(a, b)) {
         simple.push_back({a.plane, b.plane, a.piece, b.piece, a.from, a.to});
         return;
       }
     }
     for (std::size_t i = 0; i < group.size(); ++i) {
-      const PieceEdge& edge = edges_[group[i].edge];
+      const PieceEdge& edge = group[i];
       if (i + 1 < group.size()) {
-        const PieceEdge& other = edges_[group[i + 1].edge];
+        const PieceEdge& other = group[i + 1];
         if (other.plane == edge.plane) {
           if (other.from == edge.from) broken("two pieces of boundary that overlap");
           faces_.unite(edge.piece, other.piece);
