@@ -167,11 +167,13 @@ class Merger {
   // primitive_of_piece_ and in_general_position_.
   void number_vertices(std::vector<PieceBuffer> buffers) {
     const PieceRow pieces(buffers);
-    InternedVertices interned = intern(geometry_, vertices_of(pieces), statistics_, threads_);
+    const Parts parts(pieces.size());
+    std::vector<PieceCounts> counts(parts.count());
+    InternedVertices interned =
+        intern(geometry_, vertices_of(pieces, parts, counts), statistics_, threads_);
     vertices_ = std::move(interned.distinct);
     for (PieceBuffer& buffer : buffers) give_up(buffer.meeting_points);
-    const Parts parts(pieces.size());
-    const std::vector<PieceCounts> firsts = first_entries(pieces, parts);
+    const std::vector<PieceCounts> firsts = first_entries(counts);
     resize(threads_, edges_, firsts.back().edges);
     resize(threads_, settled_faces_, firsts.back().settled_faces);
     resize(threads_, settled_sides_, firsts.back().settled_sides);
@@ -205,18 +207,7 @@ class Merger {
   }
 
   // Where the entries of each part begin, and how many there are.
-  std::vector<PieceCounts> first_entries(const PieceRow& pieces, const Parts& parts) const {
-    std::vector<PieceCounts> counts(parts.count());
-    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      PieceCounts count;
-      pieces.for_each(
-          begin, end,
-          [&](const PieceBuffer&, std::size_t, const BoundaryPiece& piece, PieceNumber) {
-            this->count(piece, count);
-          },
-          AskForFacet{*this}, AskForCorners{scene_});
-      counts[part] = count;
-    });
+  static std::vector<PieceCounts> first_entries(const std::vector<PieceCounts>& counts) {
     std::vector<PieceCounts> firsts(1);
     for (const PieceCounts& count : counts) {
       const PieceCounts& first = firsts.back();
@@ -224,22 +215,6 @@ class Merger {
                         first.settled_sides + count.settled_sides});
     }
     return firsts;
-  }
-
-  void count(const BoundaryPiece& piece, PieceCounts& counts) const {
-    if (!settled_.is_settled(piece)) {
-      counts.edges += piece.share == facet_share::whole ? scene_.facets[piece.facet].corner_count
-                                                        : piece.corner_count;
-      return;
-    }
-    // A whole facet.
-    const std::span<const PointCorner> corners = corners_of_facet(piece);
-    ++counts.settled_faces;
-    counts.settled_sides += corners.size();
-    counts.edges +=
-        static_cast<std::size_t>(std::count_if(corners.begin(), corners.end(), [&](auto& corner) {
-          return !settled_.is_settled(PlaneRef::of_table(corner.side_plane));
-        }));
   }
 
   // Pieces refer to facets all over the scene.
@@ -286,39 +261,68 @@ class Merger {
   }
 
   // Meeting points in the order of the buffers, and the points that occur. In general position, a
-  // cell shares with others only what its walls make.
-  CornerVertices vertices_of(const PieceRow& pieces) const {
+  // cell shares with others only what its walls make. Counts the entries of each part, too: to read
+  // all pieces once more takes longer.
+  CornerVertices vertices_of(const PieceRow& pieces, const Parts& parts,
+                             std::vector<PieceCounts>& counts) const {
     CornerVertices result;
     resize(threads_, result.point_occurs, geometry_.point_count());
     resize(threads_, result.meeting_points, pieces.meeting_point_count());
     resize(threads_, result.meeting_point_occurs, pieces.meeting_point_count());
-    const auto add = [&](const PieceBuffer& buffer, std::size_t first_meeting_point,
-                         const BoundaryPiece& piece, PieceNumber) {
-      const CornerOccurrence occurrence =
-          piece.in_general_position ? CornerOccurrence::Alone : CornerOccurrence::Some;
-      if (piece.share == facet_share::whole) {
-        for (const PointCorner& corner : corners_of_facet(piece)) {
-          note(occurrence, result.point_occurs[static_cast<std::uint32_t>(corner.point)]);
-        }
-        return;
-      }
-      for (const PieceCorner& corner : buffer.corners_of(piece)) {
-        if (corner.is_point) {
-          note(occurrence, result.point_occurs[corner.vertex]);
-        } else {
-          const std::size_t place = first_meeting_point + corner.vertex;
-          const Vertex& vertex = buffer.meeting_points[corner.vertex];
-          note(is_on_wall(vertex) ? CornerOccurrence::Some : occurrence,
-               result.meeting_point_occurs[place]);
-          std::atomic_ref(result.meeting_points[place]).store(&vertex, std::memory_order_relaxed);
-        }
-      }
-    };
-    in_parallel(threads_, Parts(pieces.size()),
-                [&](std::size_t, std::size_t begin, std::size_t end) {
-                  pieces.for_each(begin, end, add, AskForFacet{*this}, AskForCorners{scene_});
-                });
+    in_parallel(threads_, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      PieceCounts count;
+      pieces.for_each(
+          begin, end,
+          [&](const PieceBuffer& buffer, std::size_t first_meeting_point,
+              const BoundaryPiece& piece, PieceNumber) {
+            if (piece.share == facet_share::whole) {
+              add_whole_facet(piece, result, count);
+            } else {
+              count.edges += piece.corner_count;
+              add_corners(buffer, first_meeting_point, piece, result);
+            }
+          },
+          AskForFacet{*this}, AskForCorners{scene_});
+      counts[part] = count;
+    });
     return result;
+  }
+
+  static CornerOccurrence occurrence_in(const BoundaryPiece& piece) {
+    return piece.in_general_position ? CornerOccurrence::Alone : CornerOccurrence::Some;
+  }
+
+  void add_whole_facet(const BoundaryPiece& piece, CornerVertices& result,
+                       PieceCounts& count) const {
+    const std::span<const PointCorner> corners = corners_of_facet(piece);
+    for (const PointCorner& corner : corners) {
+      note(occurrence_in(piece), result.point_occurs[static_cast<std::uint32_t>(corner.point)]);
+    }
+    if (!settled_.is_settled(piece)) {
+      count.edges += corners.size();
+      return;
+    }
+    ++count.settled_faces;
+    count.settled_sides += corners.size();
+    for (const PointCorner& corner : corners) {
+      count.edges += settled_.is_settled(PlaneRef::of_table(corner.side_plane)) ? 0 : 1;
+    }
+  }
+
+  static void add_corners(const PieceBuffer& buffer, std::size_t first_meeting_point,
+                          const BoundaryPiece& piece, CornerVertices& result) {
+    const CornerOccurrence occurrence = occurrence_in(piece);
+    for (const PieceCorner& corner : buffer.corners_of(piece)) {
+      if (corner.is_point) {
+        note(occurrence, result.point_occurs[corner.vertex]);
+      } else {
+        const std::size_t place = first_meeting_point + corner.vertex;
+        const Vertex& vertex = buffer.meeting_points[corner.vertex];
+        note(is_on_wall(vertex) ? CornerOccurrence::Some : occurrence,
+             result.meeting_point_occurs[place]);
+        std::atomic_ref(result.meeting_points[place]).store(&vertex, std::memory_order_relaxed);
+      }
+    }
   }
 
   static bool is_on_wall(const Vertex& meeting_point) {
