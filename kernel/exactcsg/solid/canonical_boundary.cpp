@@ -629,6 +629,8 @@ class Merger {
     std::sort(stations.begin(), stations.end());
     stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
     if (stations.size() <= 2) return;  // as most lines have it
+    // They lie anywhere: all of them are asked for before one is waited for.
+    for (const VertexNumber vertex : stations) vertices_.prefetch(vertex);
     const std::optional<Axis> axis = axis_along(geometry_, lines_[line]);
     std::sort(stations.begin(), stations.end(), [&](VertexNumber a, VertexNumber b) {
       if (a == b) return false;
