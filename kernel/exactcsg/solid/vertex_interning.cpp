@@ -75,6 +75,20 @@ class Items {
   CornerOccurrence occurrence(std::uint32_t item) const {
     return is_point(item) ? vertices_.point_occurs[id(item)] : vertices_.meeting_point_occurs[item];
   }
+  // Ask for what vertex(item) reads, the first one for what the second one reads.
+  void prefetch_place(std::uint32_t item) const {
+    if (is_point(item)) {
+      __builtin_prefetch(&geometry_.approximate(PointId{id(item)}));
+    } else {
+      __builtin_prefetch(&vertices_.meeting_points[item]);
+    }
+  }
+  void prefetch(std::uint32_t item) const {
+    if (is_point(item)) return;
+    const Vertex* const vertex = vertices_.meeting_points[item];
+    __builtin_prefetch(vertex);
+    __builtin_prefetch(reinterpret_cast<const char*>(vertex + 1) - 1);
+  }
   Vertex vertex(std::uint32_t item) const {
     return is_point(item) ? geometry_.vertex(PointId{id(item)}) : *vertices_.meeting_points[item];
   }
@@ -232,10 +246,16 @@ InternedVertices intern(const Geometry& geometry, const CornerVertices& vertices
       [&](std::size_t part, std::size_t begin, std::size_t end, TierStatistics& tiers) {
         distinct[part].reserve(end - begin);
         ClusterVertices cluster_vertices(geometry, tiers);
+        constexpr std::size_t items_ahead = 8;
+        const std::span<const KeyInterval> keys = clusters.part(part);
+        const KeyInterval* const last = keys.data() + keys.size();
         clusters.for_each(part, [&](std::span<const KeyInterval> cluster) {
           const std::size_t first = distinct[part].size();
           cluster_vertices.clear();
           for (const KeyInterval& key : cluster) {
+            const auto left = static_cast<std::size_t>(last - &key);
+            if (left > 2 * items_ahead) items.prefetch_place((&key + 2 * items_ahead)->item);
+            if (left > items_ahead) items.prefetch((&key + items_ahead)->item);
             const std::size_t place = cluster_vertices.place_of(items.vertex(key.item));
             number_of(key.item) = static_cast<std::uint32_t>(first + place);
           }
