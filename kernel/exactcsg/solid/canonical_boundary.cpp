@@ -506,7 +506,12 @@ class Merger {
     constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
     std::vector<std::uint64_t> some_line(vertices_.size(), unknown);
     in_parallel(threads_, simple.size(), [&](std::size_t part) {
-      for (const SimpleEdge& edge : simple[part]) {
+      for (std::size_t i = 0; i < simple[part].size(); ++i) {
+        const SimpleEdge& edge = simple[part][i];
+        if (i + edges_ahead < simple[part].size()) {
+          __builtin_prefetch(&some_line[simple[part][i + edges_ahead].from], 1);
+          __builtin_prefetch(&some_line[simple[part][i + edges_ahead].to], 1);
+        }
         const auto [first, second] =
             std::minmax({edge.left.table_index(), edge.right.table_index()});
         const std::uint64_t line = std::uint64_t{first} << 32U | second;
@@ -763,7 +768,13 @@ class Merger {
           std::vector<VertexNumber> on_line;
           for (auto line = static_cast<LineNumber>(begin); line < end; ++line) {
             on_line.clear();
-            for (const Segment& segment : segments_of(line)) {
+            const LineContent& content = content_[line];
+            for (std::size_t i = 0; i < content.segment_count; ++i) {
+              const std::size_t place = content.first_segment + i;
+              const Segment& segment = segments_[place];
+              if (place + edges_ahead < segments_.size()) {
+                ask_for_ends(segments_[place + edges_ahead], some_line);
+              }
               for (const VertexNumber vertex : {segment.from, segment.to}) {
                 LineNumber known = none;
                 // Whichever line comes first, the second one marks the vertex.
@@ -786,6 +797,14 @@ class Merger {
       }
     });
     stations_ = joined(threads_, std::move(stations));
+  }
+
+  // Asks for what marking the ends as vertices reads, and sorting them along the line.
+  void ask_for_ends(const Segment& segment, const std::vector<LineNumber>& some_line) const {
+    for (const VertexNumber vertex : {segment.from, segment.to}) {
+      __builtin_prefetch(&some_line[vertex], 1);
+      vertices_.prefetch_place(vertex);
+    }
   }
 
   std::span<const Segment> segments_of(LineNumber line) const {
@@ -1101,6 +1120,12 @@ class Merger {
     SingleFaces singles;
   };
 
+  void ask_for_piece(PieceNumber piece) const {
+    faces_.prefetch(piece);
+    __builtin_prefetch(&primitive_of_piece_[piece]);
+    __builtin_prefetch(&in_general_position_[piece]);
+  }
+
   // Gives up what is known of lines: their memory is wanted for the result.
   FaceParts face_parts() {
     const Parts lines(content_.size());
@@ -1113,6 +1138,10 @@ class Merger {
       std::vector<std::uint32_t>& rank = ranks();
       edges[part].reserve(segment_count(begin, end));
       for (auto line = static_cast<LineNumber>(begin); line < end; ++line) {
+        for (std::size_t i = 0; i < content_[line].segment_count; ++i) {
+          const std::size_t ahead = content_[line].first_segment + i + edges_ahead;
+          if (ahead < segments_.size()) ask_for_piece(segments_[ahead].piece);
+        }
         for_each_run(line, rank, [&](const Run& run) {
           edges[part].push_back({run.owner.plane, faces_.find(run.owner.piece), run.from, run.to});
         });
@@ -1129,6 +1158,10 @@ class Merger {
       result.reserve(2 * (end - begin));
       for (std::size_t i = begin; i < end; ++i) {
         const SimpleEdge& edge = simple_edges_[i];
+        if (i + edges_ahead < end) {
+          faces_.prefetch(simple_edges_[i + edges_ahead].left_piece);
+          faces_.prefetch(simple_edges_[i + edges_ahead].right_piece);
+        }
         result.push_back({edge.left, faces_.find(edge.left_piece), edge.from, edge.to});
         result.push_back({edge.right, faces_.find(edge.right_piece), edge.to, edge.from});
       }
