@@ -87,6 +87,36 @@ TEST(Tiers, OwnPlanesAreSymbolic) {
   EXPECT_EQ(statistics, expected(Tier::Symbolic, true));
 }
 
+// Four points of a plane that incidences in rows tell of, once for each of two added planes.
+TEST(Tiers, IncidenceGivenByRowsIsSymbolic) {
+  Geometry::Builder builder;
+  std::vector<PointId> ids;
+  for (const Point3& point :
+       {Point3{Rational(1, 3), 0, 0}, Point3{0, Rational(1, 7), 0}, Point3{0, 0, Rational(1, 11)},
+        Point3{Rational(1, 9), Rational(1, 21), Rational(1, 33)}}) {
+    ids.push_back(builder.add_point(point));
+  }
+  // x 3 + y 7 + z 11 = 1, and x 3 + y 7 + z 33 = 1 through the first two
+  builder.add_plane(Plane{1, 0, 0, 9});
+  const std::uint32_t plane = builder.add_plane(Plane{3, 7, 11, -1});
+  const std::uint32_t other = builder.add_plane(Plane{3, 7, 33, -1});
+  const std::vector<std::uint32_t> begins{0, 2, 6};
+  const std::vector<std::uint32_t> corners{0, 1, 3, 2, 1, 0};
+  const std::vector<std::uint32_t> of_rows{1, 0};
+  builder.add_incidences({ids, begins, corners, of_rows, plane});
+  const Geometry geometry = std::move(builder).build();
+  const auto tier_of = [&](std::size_t point, std::uint32_t added) {
+    TierStatistics statistics;
+    const Sign sign =
+        geometry.side(geometry.vertex(ids[point]), geometry.plane(added).plane, statistics);
+    EXPECT_EQ(sign == Sign::Zero, statistics == expected(Tier::Symbolic, true)) << point;
+    return sign;
+  };
+  for (const std::size_t point : {0U, 1U, 2U, 3U}) EXPECT_EQ(tier_of(point, plane), Sign::Zero);
+  for (const std::size_t point : {0U, 1U}) EXPECT_EQ(tier_of(point, other), Sign::Zero);
+  for (const std::size_t point : {2U, 3U}) EXPECT_EQ(tier_of(point, other), Sign::Positive);
+}
+
 TEST(Tiers, KnownIncidenceIsSymbolic) {
   Geometry::Builder builder;
   const PointId p = builder.add_point({Rational(1, 3), 0, 0});

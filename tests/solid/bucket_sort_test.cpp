@@ -40,7 +40,7 @@ TEST(BucketSort, SortsTheSameWithEveryNumberOfThreads) {
   std::mt19937 random(9);
   for (const std::uint32_t buckets : {1U, 256U, 257U, 70000U}) {
     // Items that are moved, not copied; the middle bucket holds more than its share.
-    std::vector<std::pair<std::uint32_t, std::vector<std::uint32_t>>> items(20000);
+    std::vector<std::pair<std::uint32_t, std::vector<std::uint32_t>>> items(40000);
     for (auto& [bucket, rest] : items) {
       bucket = random() % 4 == 0 ? buckets / 2 : static_cast<std::uint32_t>(random() % buckets);
       rest.push_back(static_cast<std::uint32_t>(random()));

@@ -16,22 +16,9 @@ namespace {
 constexpr double unit = 0x1p-53;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Offsets beyond this are kept out of the arithmetic of keys. Whether a plane is one of them is
-// decided on doubles that only depend on the exact plane, so that equal planes agree on it.
-constexpr double largest_offset = 0x1p450;
-
 // Above so many distinct planes with overlapping keys they are sorted exactly instead of compared
 // one by one.
 constexpr std::size_t many_representatives = 16;
-
-bool is_remote(const ApproximatePlane& plane) {
-  return !(std::fabs(plane.d) + plane.offset_error < largest_offset);
-}
-
-struct Keyed {
-  PlaneKey key;
-  std::uint32_t plane;
-};
 
 // +1 or -1 if both planes are the same point set, 0 if not.
 int compare_sense(const Plane& p, const Plane& q) {
@@ -155,10 +142,10 @@ PlaneKey key_of(const ApproximatePlane& p) {
 namespace {
 
 // By the lower ends of the keys, and by number.
-void sort_by_key(std::vector<Keyed>& keyed) {
+void sort_by_key(std::vector<KeyedPlane>& keyed) {
   double lowest = infinity;
   double highest = -infinity;
-  for (const Keyed& item : keyed) {
+  for (const KeyedPlane& item : keyed) {
     if (!(item.key.lower > -infinity)) continue;
     lowest = std::min(lowest, item.key.lower);
     highest = std::max(highest, item.key.lower);
@@ -166,13 +153,13 @@ void sort_by_key(std::vector<Keyed>& keyed) {
   // Monotone, as both operations and rounding are; without a range everything is one bucket.
   const auto last = static_cast<double>(keyed.size());
   const double scale = lowest < highest ? last / (highest - lowest) : 0;
-  const auto bucket_of = [&](const Keyed& item) -> std::size_t {
+  const auto bucket_of = [&](const KeyedPlane& item) -> std::size_t {
     const double bucket = (item.key.lower - lowest) * scale;
     return bucket > 0 ? static_cast<std::size_t>(std::min(bucket, last)) : 0;
   };
-  std::vector<Keyed> sorted(keyed.size());
+  std::vector<KeyedPlane> sorted(keyed.size());
   sort_in_buckets(std::span(keyed), std::span(sorted), keyed.size() + 1, bucket_of,
-                  [](const Keyed& k, const Keyed& l) {
+                  [](const KeyedPlane& k, const KeyedPlane& l) {
                     return k.key.lower < l.key.lower ||
                            (k.key.lower == l.key.lower && k.plane < l.plane);
                   });
@@ -182,19 +169,7 @@ void sort_by_key(std::vector<Keyed>& keyed) {
 }  // namespace
 
 std::vector<PlaneClass> coincidence_classes(AddedPlanes& planes, const PointTable& points) {
-  std::vector<Keyed> keyed;
-  keyed.reserve(planes.size());
-  std::vector<std::uint32_t> remote;
-  for (std::uint32_t i = 0; i < planes.size(); ++i) {
-    if (is_remote(planes.approximate(i))) {
-      planes.sharpen(points, i);
-      if (is_remote(planes.approximate(i))) {
-        remote.push_back(i);
-        continue;
-      }
-    }
-    keyed.push_back({planes.key(i), i});
-  }
+  auto [keyed, remote] = planes.take_keys(points);
   sort_by_key(keyed);
 
   Classifier classifier(planes, points);

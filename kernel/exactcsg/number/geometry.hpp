@@ -25,6 +25,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "exactcsg/number/exact_points.hpp"
 #include "exactcsg/number/point.hpp"
@@ -234,6 +235,16 @@ class Geometry {
   friend class Builder;
 };
 
+// Row f says that points[v] lies on the plane first_plane + of_rows[f], for each v of
+// corners[begins[f] ... begins[f + 1]). Without of_rows row f is of plane first_plane + f.
+struct PointsOnPlanes {
+  std::span<const PointId> points;
+  std::span<const std::uint32_t> begins;
+  std::span<const std::uint32_t> corners;
+  std::span<const std::uint32_t> of_rows;
+  std::uint32_t first_plane = 0;  // as added
+};
+
 class Geometry::Builder {
  public:
   Builder();
@@ -244,7 +255,9 @@ class Geometry::Builder {
   // The same of points that `owner` keeps alive, as the Geometry will keep the owner: they are not
   // copied.
   void add_owner(std::shared_ptr<const void> owner);
-  PointId add_owned_point(PointRecord point, const HashedPoint& hashed);
+  // The ids are appended to `ids`. REQUIRES as many points as hashes, in the same order
+  void add_owned_points(const ExactPoints& points, std::span<const HashedPoint> hashed,
+                        std::vector<PointId>& ids);
   Point3 point(PointId id) const;
   // The plane through three points, counter-clockwise from outside. Lazy: nothing exact is computed
   // unless the certified double is too poor or another plane may coincide.
@@ -258,9 +271,11 @@ class Geometry::Builder {
   std::uint32_t add_plane(const Plane& plane);
   // States that the point lies on the added plane (not checked in release builds): tier 0.
   void add_incidence(PointId point, std::uint32_t added_plane);
+  // The same of many. REQUIRES that what is referred to lasts until build()
+  void add_incidences(const PointsOnPlanes& rows);
 
   // Room for so many more of each.
-  void reserve(std::size_t points, std::size_t planes, std::size_t incidences);
+  void reserve(std::size_t points, std::size_t planes);
 
   // Finds coincident planes once and for all. COST: O(n log n) doubles, exact comparisons only
   // between planes whose certified doubles cannot tell them apart.

@@ -25,6 +25,23 @@ struct Geometry::Builder::State {
   PointTable points;
   AddedPlanes planes;
   std::vector<Incidence> incidences;
+  std::vector<PointsOnPlanes> rows;  // further ones
+
+  // visit(point, added plane)
+  template <class Visit>
+  void for_each_incidence(const Visit& visit) const {
+    for (const Incidence& incidence : incidences) visit(incidence.point, incidence.plane);
+    for (const PointsOnPlanes& on : rows) {
+      for (std::size_t row = 0; row + 1 < on.begins.size(); ++row) {
+        const std::uint32_t plane =
+            on.first_plane +
+            (on.of_rows.empty() ? static_cast<std::uint32_t>(row) : on.of_rows[row]);
+        for (std::uint32_t i = on.begins[row]; i < on.begins[row + 1]; ++i) {
+          visit(on.points[on.corners[i]], plane);
+        }
+      }
+    }
+  }
 };
 
 namespace {
@@ -68,20 +85,23 @@ void make_rows_ascend(SparseTable& table) {
 }
 
 // Incidences come plane by plane mostly, so that counting once sorts them.
-void fill_incidences(const std::vector<Incidence>& incidences, Geometry::Data& data) {
+// for_each_incidence(visit) calls visit(point, added plane).
+template <class ForEachIncidence>
+void fill_incidences(const ForEachIncidence& for_each_incidence, Geometry::Data& data) {
   SparseTable& table = data.planes_of_points;
   std::vector<std::uint32_t>& begin = table.begin;
   begin.assign(data.points.size() + 1, 0);
   // Each place is where the row before begins, until it has been filled.
   std::uint32_t* const count = begin.data() + 1;
-  for (const Incidence& incidence : incidences) ++count[static_cast<std::size_t>(incidence.point)];
+  for_each_incidence(
+      [count](PointId point, std::uint32_t) { ++count[static_cast<std::size_t>(point)]; });
   std::uint32_t sum = 0;
   for (std::size_t i = 1; i < begin.size(); ++i) sum += std::exchange(begin[i], sum);
-  table.values.resize(incidences.size());
-  for (const Incidence& incidence : incidences) {
-    table.values[count[static_cast<std::size_t>(incidence.point)]++] =
-        data.of_added[incidence.plane].plane.table_index();
-  }
+  table.values.resize(sum);
+  for_each_incidence([&](PointId point, std::uint32_t plane) {
+    table.values[count[static_cast<std::size_t>(point)]++] =
+        data.of_added[plane].plane.table_index();
+  });
   make_rows_ascend(table);
   data.points_of_planes = transposed(table, data.planes.size());
 }
@@ -97,8 +117,10 @@ void Geometry::Builder::add_owner(std::shared_ptr<const void> owner) {
   state_->owners.push_back(std::move(owner));
 }
 
-PointId Geometry::Builder::add_owned_point(PointRecord point, const HashedPoint& hashed) {
-  return state_->points.intern_lasting(point, hashed);
+void Geometry::Builder::add_owned_points(const ExactPoints& points,
+                                         std::span<const HashedPoint> hashed,
+                                         std::vector<PointId>& ids) {
+  state_->points.intern_lasting(points, hashed, ids);
 }
 
 Point3 Geometry::Builder::point(PointId id) const { return point_of(state_->points.exact(id)); }
@@ -126,18 +148,16 @@ std::uint32_t Geometry::Builder::add_plane(const Plane& plane) {
   return state_->planes.add(prepared_plane(plane), {});
 }
 
-void Geometry::Builder::reserve(std::size_t points, std::size_t planes, std::size_t incidences) {
+void Geometry::Builder::reserve(std::size_t points, std::size_t planes) {
   state_->points.reserve(points);
   state_->planes.reserve(planes);
-  std::vector<Incidence>& known = state_->incidences;
-  if (known.size() + incidences > known.capacity()) {
-    known.reserve(std::max(known.size() + incidences, known.size() * 2));
-  }
 }
 
 void Geometry::Builder::add_incidence(PointId point, std::uint32_t added_plane) {
   state_->incidences.push_back({point, added_plane});
 }
+
+void Geometry::Builder::add_incidences(const PointsOnPlanes& rows) { state_->rows.push_back(rows); }
 
 Geometry Geometry::Builder::build() && {
   State& state = *state_;
@@ -158,7 +178,7 @@ Geometry Geometry::Builder::build() && {
   data->points.close();
   data->owners = std::move(state.owners);
   data->homogeneous_points = LazyTable<Homogeneous<Integer>>(data->points.size());
-  fill_incidences(state.incidences, *data);
+  fill_incidences([&state](const auto& visit) { state.for_each_incidence(visit); }, *data);
   state_.reset();
   return Geometry(std::move(data));
 }

@@ -4,10 +4,12 @@
 // A table of values that are computed when they are first asked for, by any thread. Two threads may
 // both compute an entry; the first to publish it wins and the other deletes its own.
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace exactcsg {
 
@@ -15,30 +17,36 @@ template <class T>
 class LazyTable {
  public:
   LazyTable() = default;
-  explicit LazyTable(std::size_t size) : size_(size), entries_(new std::atomic<const T*>[size]()) {}
-  LazyTable(LazyTable&& other) noexcept
-      : size_(std::exchange(other.size_, 0)), entries_(std::move(other.entries_)) {}
+  explicit LazyTable(std::size_t size) : blocks_((size + block_size - 1) / block_size) {}
+  LazyTable(LazyTable&&) noexcept = default;
   LazyTable& operator=(LazyTable&& other) noexcept {
-    std::swap(size_, other.size_);
-    std::swap(entries_, other.entries_);
+    std::swap(blocks_, other.blocks_);
     return *this;
   }
   ~LazyTable() {
-    for (std::size_t i = 0; i < size_; ++i) delete entries_[i].load(std::memory_order_acquire);
+    for (const std::atomic<Block*>& place : blocks_) {
+      const std::unique_ptr<Block> block(place.load(std::memory_order_acquire));
+      if (!block) continue;
+      for (const Entry& entry : block->entries) delete entry.load(std::memory_order_acquire);
+    }
   }
 
   // Before any thread asks for entry i, which is known already.
   void set(std::size_t i, std::unique_ptr<const T> value) {
-    delete entries_[i].exchange(value.release(), std::memory_order_acq_rel);
+    delete entry(i).exchange(value.release(), std::memory_order_acq_rel);
   }
 
   // Entry i if it is known.
-  const T* known(std::size_t i) const { return entries_[i].load(std::memory_order_acquire); }
+  const T* known(std::size_t i) const {
+    const Block* block = blocks_[i / block_size].load(std::memory_order_acquire);
+    if (block == nullptr) return nullptr;
+    return block->entries[i % block_size].load(std::memory_order_acquire);
+  }
 
   // `compute()` returns the value. The reference lives as long as the table.
   template <class Compute>
   const T& get(std::size_t i, const Compute& compute) const {
-    std::atomic<const T*>& entry = entries_[i];
+    Entry& entry = this->entry(i);
     if (const T* known = entry.load(std::memory_order_acquire)) return *known;
     auto mine = std::make_unique<const T>(compute());
     const T* winner = nullptr;
@@ -50,8 +58,28 @@ class LazyTable {
   }
 
  private:
-  std::size_t size_ = 0;
-  std::unique_ptr<std::atomic<const T*>[]> entries_;
+  using Entry = std::atomic<const T*>;
+  static constexpr std::size_t block_size = 512;
+  struct Block {
+    std::array<Entry, block_size> entries{};
+  };
+
+  Entry& entry(std::size_t i) const {
+    std::atomic<Block*>& place = blocks_[i / block_size];
+    Block* block = place.load(std::memory_order_acquire);
+    if (block == nullptr) {
+      auto mine = std::make_unique<Block>();
+      if (place.compare_exchange_strong(block, mine.get(), std::memory_order_acq_rel,
+                                        std::memory_order_acquire)) {
+        block = mine.release();
+      }
+    }
+    return block->entries[i % block_size];
+  }
+
+  // Null: no entry of the block was asked for. Most tables are nearly empty for good, and the first
+  // touch of memory is dear.
+  mutable std::vector<std::atomic<Block*>> blocks_;
 };
 
 }  // namespace exactcsg

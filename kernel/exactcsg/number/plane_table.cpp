@@ -2,17 +2,24 @@
 #include "exactcsg/number/plane_table.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "exactcsg/number/coincidence.hpp"
-#include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {
+
+bool is_remote(const ApproximatePlane& plane) {
+  constexpr double largest_offset = 0x1p450;
+  return !(std::fabs(plane.d) + plane.offset_error < largest_offset);
+}
 
 std::uint32_t AddedPlanes::add(PreparedPlane plane, const PlanePoints& points) {
   const std::uint32_t index = size();
   if (plane.exact) exact_.emplace(index, std::move(plane.exact));
   approximate_.push_back(plane.near);
-  keys_.push_back(plane.key);
+  keys_.push_back({plane.key, index});
+  if (is_remote(plane.near)) remote_.push_back(index);
   points_.push_back(points);
   return index;
 }
@@ -35,14 +42,25 @@ const Plane& AddedPlanes::exact(const PointTable& points, std::uint32_t i) {
   return *known;
 }
 
-void AddedPlanes::sharpen(const PointTable& points, std::uint32_t i) {
-  approximate_[i] = exactcsg::approximate(exact(points, i));
-  keys_[i] = key_of(approximate_[i]);
+// Whether a plane is remote is decided on doubles that only depend on the exact plane, so that
+// equal planes agree on it.
+AddedPlanes::ByKey AddedPlanes::take_keys(const PointTable& points) {
+  ByKey result{std::move(keys_), {}};
+  for (const std::uint32_t i : remote_) {
+    approximate_[i] = exactcsg::approximate(exact(points, i));
+    result.keyed[i].key = key_of(approximate_[i]);
+    if (is_remote(approximate_[i])) result.remote.push_back(i);
+  }
+  if (!result.remote.empty()) {
+    std::erase_if(result.keyed, [&](const KeyedPlane& keyed) {
+      return std::binary_search(result.remote.begin(), result.remote.end(), keyed.plane);
+    });
+  }
+  return result;
 }
 
 PlaneTable::PlaneTable(AddedPlanes&& added, const std::vector<std::uint32_t>& members)
     : exact_(members.size()), forms_(members.size()) {
-  give_up(added.keys_);
   for (auto& [index, plane] : added.exact_) {
     const auto place = std::lower_bound(members.begin(), members.end(), index);
     if (place == members.end() || *place != index) continue;

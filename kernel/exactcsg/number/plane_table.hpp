@@ -63,6 +63,14 @@ class PlanePoints {
   std::uint32_t third_ = nothing;
 };
 
+// Whether offsets like the plane's are kept out of the arithmetic of keys.
+bool is_remote(const ApproximatePlane& plane);
+
+struct KeyedPlane {
+  PlaneKey key;
+  std::uint32_t plane;
+};
+
 // The planes in the order in which they were added, each as often as it was. For one thread.
 class AddedPlanes {
  public:
@@ -71,19 +79,24 @@ class AddedPlanes {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(approximate_.size()); }
   const ApproximatePlane& approximate(std::uint32_t i) const { return approximate_[i]; }
-  const PlaneKey& key(std::uint32_t i) const { return keys_[i]; }
+  // The planes that are not remote with their keys, and then the remote ones. Both ascend.
+  struct ByKey {
+    std::vector<KeyedPlane> keyed;
+    std::vector<std::uint32_t> remote;
+  };
+  // REQUIRES that it was not asked for yet, and that no plane is added any more
+  ByKey take_keys(const PointTable& points);
   const PlanePoints& points(std::uint32_t i) const { return points_[i]; }
   bool knows_exact(std::uint32_t i) const { return exact_.contains(i); }
   // Computes it if it is not known yet.
   const Plane& exact(const PointTable& points, std::uint32_t i);
-  // Replaces the certified doubles by those of the exact coefficients.
-  void sharpen(const PointTable& points, std::uint32_t i);
 
  private:
   friend class PlaneTable;
 
   std::vector<ApproximatePlane> approximate_;
-  std::vector<PlaneKey> keys_;
+  std::vector<KeyedPlane> keys_;
+  std::vector<std::uint32_t> remote_;  // by the doubles that were added
   std::vector<PlanePoints> points_;
   std::unordered_map<std::uint32_t, std::unique_ptr<const Plane>> exact_;
 };

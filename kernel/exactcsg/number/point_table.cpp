@@ -41,6 +41,9 @@ std::uint64_t hash_of(const Point3& point, const ApproximatePoint& near) {
   return mixed(hash, limbs);
 }
 
+// Slots lie anywhere: so many are asked for before they are read.
+constexpr std::size_t slots_ahead = 16;
+
 bool are_equal(const ApproximatePoint& p, const ApproximatePoint& q) {
   return p.x == q.x && p.y == q.y && p.z == q.z && p.error == q.error;
 }
@@ -82,11 +85,22 @@ PointId PointTable::intern(const Point3& point) {
   return id;
 }
 
-PointId PointTable::intern_lasting(PointRecord point, const HashedPoint& hashed) {
-  const auto [id, is_new] =
-      find_or_add(hashed, [point](PointRecord known) { return known == point; });
-  if (is_new) points_.push_back(point);
-  return id;
+void PointTable::intern_lasting(const ExactPoints& points, std::span<const HashedPoint> hashed,
+                                std::vector<PointId>& ids) {
+  reserve(hashed.size());
+  const std::size_t mask = slots_.size() - 1;
+  const auto ask_for = [&](std::size_t i) {
+    if (i < hashed.size()) __builtin_prefetch(&slots_[hashed[i].hash & mask], 1);
+  };
+  for (std::size_t i = 0; i < slots_ahead; ++i) ask_for(i);
+  for (std::size_t i = 0; i < hashed.size(); ++i) {
+    ask_for(i + slots_ahead);
+    const PointRecord point = points.record(i);
+    const auto [id, is_new] =
+        find_or_add(hashed[i], [point](PointRecord known) { return known == point; });
+    if (is_new) points_.push_back(point);
+    ids.push_back(id);
+  }
 }
 
 template <class Equals>

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,8 +19,10 @@ class PointTable {
  public:
   // The id of the point of this value, a new one if there is none. COST: amortised O(1)
   PointId intern(const Point3& point);
-  // The same without a copy. REQUIRES the point lasts as long as the table.
-  PointId intern_lasting(PointRecord point, const HashedPoint& hashed);
+  // The same of many without copies; the ids are appended. REQUIRES that the points last as long as
+  // the table, and as many points as hashes
+  void intern_lasting(const ExactPoints& points, std::span<const HashedPoint> hashed,
+                      std::vector<PointId>& ids);
 
   // Room for so many more.
   void reserve(std::size_t more);

@@ -70,11 +70,7 @@ template <class Item, class BucketOf, class Less>
 void sort_in_buckets(std::vector<Item>& items, std::size_t bucket_count, BucketOf bucket_of,
                      Less less, unsigned threads = 1) {
   constexpr std::size_t least_for_threads = 8192;
-  // One thread, too, moves what its caches do not hold into few groups first: every single move
-  // into one of many buckets waits for the memory.
-  constexpr std::size_t cached_bytes = std::size_t{1} << 20U;
-  if (threads != 1 ? items.size() >= least_for_threads
-                   : items.size() * sizeof(Item) > cached_bytes) {
+  if (threads != 1 && items.size() >= least_for_threads) {
     detail::sort_in_groups(threads, items, bucket_count, bucket_of, less);
     return;
   }

@@ -192,15 +192,13 @@ class SceneBuilder {
   void make_room() {
     std::size_t points = 0;
     std::size_t planes = 0;
-    std::size_t corners = 0;
     for (const Shape& shape : shapes_) {
       if (!shape.polyhedron) continue;
       points += shape.polyhedron->vertices.size();
       planes += shape.polyhedron->facets.size();
-      corners += shape.polyhedron->facets.corners().size();
     }
-    builder_.reserve(points, planes, corners);
-    points_.reserve(points);
+    builder_.reserve(points, planes);
+    points_.reserve(points);  // incidences refer to them
     primitives_.reserve(shapes_.size());
   }
 
@@ -224,9 +222,7 @@ class SceneBuilder {
     const std::vector<HashedPoint>& points = polyhedron.prepared->points;
     builder_.add_owner(shape.polyhedron);
     shape.first_point = points_.size();
-    for (std::size_t v = 0; v < points.size(); ++v) {
-      points_.push_back(builder_.add_owned_point(polyhedron.vertices.record(v), points[v]));
-    }
+    builder_.add_owned_points(polyhedron.vertices, points, points_);
   }
 
   // REQUIRES that its points were added.
@@ -252,10 +248,9 @@ class SceneBuilder {
     for (const auto& [a, b, c] : known.triples()) {
       builder_.add_plane(copy_of(*plane++), point(a), point(b), point(c));
     }
-    for (std::uint32_t f = 0; f < facets.facet_count(); ++f) {
-      const std::uint32_t added = shape.first_plane + facets.of_facet(f);
-      for (const std::uint32_t v : facets.facets[f]) builder_.add_incidence(point(v), added);
-    }
+    builder_.add_incidences(
+        {std::span(points_).subspan(shape.first_point, shape.polyhedron->vertices.size()),
+         facets.facets.begins(), facets.facets.corners(), facets.of_facets, shape.first_plane});
     for (const auto& [from, to, axis] : facets.across) {
       const std::uint32_t added =
           builder_.add_plane(copy_of(*plane++), point(from), point(to), axis);
