@@ -15,8 +15,10 @@ namespace exactcsg {
 
 using csg::Membership;
 
-CellSolver::CellSolver(const Scene& scene, const EvaluateOptions& options)
+CellSolver::CellSolver(const Scene& scene, const EvaluateOptions& options, CellUse use)
     : scene_(scene),
+      facets_per_cell_(options.facets_per_cell),
+      use_(use),
       decomposition_(scene, options.facets_per_cell, options.progress),
       workers_([&scene, progress = options.progress] {
         return Worker{CellEvaluator(scene, progress), {}, {}};
@@ -25,10 +27,23 @@ CellSolver::CellSolver(const Scene& scene, const EvaluateOptions& options)
 // A cell with one primitive only needs no division: most of a scene ends there.
 EvaluationTask CellSolver::prepared(CellTask cell) const {
   EvaluationTask task{std::move(cell), std::nullopt};
-  if (!decomposition_.is_leaf(task.cell) && !decomposition_.is_one_primitive(task.cell)) {
+  if (!decomposition_.is_leaf(task.cell) && !decomposition_.is_one_primitive(task.cell) &&
+      !is_cheap(task.cell)) {
     task.division = decomposition_.choose_division(task.cell);
   }
   return task;
+}
+
+// Few convex primitives leave most of each other's facets alone, by the first plane that is asked,
+// where every pair more may cross. A mesh's local form is dear.
+bool CellSolver::is_cheap(const CellTask& task) const {
+  const std::size_t primitives = task.primitives.size();
+  if (use_ == CellUse::Changing || primitives > 3) return false;
+  const std::size_t limit = facets_per_cell_ * (primitives == 2 ? 10 : 7) / 6;
+  return task.facet_count <= limit &&
+         std::ranges::all_of(task.primitives, [&](const PrimitiveFacets& facets) {
+           return scene_.primitives[facets.primitive].convex;
+         });
 }
 
 std::vector<EvaluationTask> CellSolver::divide(EvaluationTask& task) const {

@@ -19,11 +19,15 @@ struct EvaluationTask {
   std::optional<Division> division;
 };
 
+// When cells are divided no further. Once: as is cheapest for one evaluation. Changing: cells stay
+// small, since a change renews whole ones.
+enum class CellUse : unsigned char { Once, Changing };
+
 // For any number of threads.
 class CellSolver {
  public:
   // The scene outlives it.
-  CellSolver(const Scene& scene, const EvaluateOptions& options);
+  CellSolver(const Scene& scene, const EvaluateOptions& options, CellUse use);
 
   const Decomposition& decomposition() const { return decomposition_; }
 
@@ -46,8 +50,11 @@ class CellSolver {
 
   void emit_primitive(const CellTask& cell, PieceCollector& result) const;
   bool touches_walls(const CellTask& cell) const;
+  bool is_cheap(const CellTask& task) const;
 
   const Scene& scene_;
+  std::size_t facets_per_cell_;
+  CellUse use_;
   Decomposition decomposition_;
   mutable PerThread<Worker> workers_;
 };

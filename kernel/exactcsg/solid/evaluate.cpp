@@ -23,7 +23,7 @@ struct CellResult {
 class Evaluation {
  public:
   Evaluation(const Scene& scene, const EvaluateOptions& options)
-      : solver_(scene, options), progress_(options.progress) {}
+      : solver_(scene, options, CellUse::Once), progress_(options.progress) {}
 
   EvaluationTask root() const { return solver_.prepared(solver_.decomposition().root()); }
 

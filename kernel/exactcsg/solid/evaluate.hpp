@@ -20,9 +20,11 @@
 namespace exactcsg {
 
 struct EvaluateOptions {
-  unsigned threads = 1;              // 1: sequential executor; 0: as many as the machine has
-  std::size_t facets_per_cell = 24;  // cells with at most so many facets are evaluated
-  Progress* progress = nullptr;      // advanced and asked for cancellation, if given
+  unsigned threads = 1;  // 1: sequential executor; 0: as many as the machine has
+  // Cells with at most so many facets are evaluated, and by `evaluate` also cells with more of them
+  // that two or three convex primitives have.
+  std::size_t facets_per_cell = 24;
+  Progress* progress = nullptr;  // advanced and asked for cancellation, if given
 };
 
 // LAW evaluate.1  the result is boundary.1's canonical boundary of the regularised set.

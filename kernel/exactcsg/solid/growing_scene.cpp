@@ -79,7 +79,7 @@ bool same_corner(const Corner& a, const Corner& b) {
 
 WorkingScene::WorkingScene(Scene of, const EvaluateOptions& options)
     : scene(std::move(of)),
-      solver(scene, options),
+      solver(scene, options, CellUse::Changing),
       boxes(boxes_of(scene)),
       has_half_spaces(exactcsg::has_half_spaces(scene)) {}
 
