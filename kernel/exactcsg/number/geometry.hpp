@@ -255,9 +255,9 @@ class Geometry::Builder {
   // The same of points that `owner` keeps alive, as the Geometry will keep the owner: they are not
   // copied.
   void add_owner(std::shared_ptr<const void> owner);
-  // The ids are appended to `ids`. REQUIRES as many points as hashes, in the same order
+  // The ids are written to `ids`. REQUIRES as many of them and of hashes as points, in their order
   void add_owned_points(const ExactPoints& points, std::span<const HashedPoint> hashed,
-                        std::vector<PointId>& ids);
+                        std::span<PointId> ids);
   Point3 point(PointId id) const;
   // The plane through three points, counter-clockwise from outside. Lazy: nothing exact is computed
   // unless the certified double is too poor or another plane may coincide.

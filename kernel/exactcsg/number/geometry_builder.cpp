@@ -119,7 +119,7 @@ void Geometry::Builder::add_owner(std::shared_ptr<const void> owner) {
 
 void Geometry::Builder::add_owned_points(const ExactPoints& points,
                                          std::span<const HashedPoint> hashed,
-                                         std::vector<PointId>& ids) {
+                                         std::span<PointId> ids) {
   state_->points.intern_lasting(points, hashed, ids);
 }
 

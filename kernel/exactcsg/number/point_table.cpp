@@ -86,7 +86,7 @@ PointId PointTable::intern(const Point3& point) {
 }
 
 void PointTable::intern_lasting(const ExactPoints& points, std::span<const HashedPoint> hashed,
-                                std::vector<PointId>& ids) {
+                                std::span<PointId> ids) {
   reserve(hashed.size());
   const std::size_t mask = slots_.size() - 1;
   const auto ask_for = [&](std::size_t i) {
@@ -99,7 +99,7 @@ void PointTable::intern_lasting(const ExactPoints& points, std::span<const Hashe
     const auto [id, is_new] =
         find_or_add(hashed[i], [point](PointRecord known) { return known == point; });
     if (is_new) points_.push_back(point);
-    ids.push_back(id);
+    ids[i] = id;
   }
 }
 

@@ -19,10 +19,10 @@ class PointTable {
  public:
   // The id of the point of this value, a new one if there is none. COST: amortised O(1)
   PointId intern(const Point3& point);
-  // The same of many without copies; the ids are appended. REQUIRES that the points last as long as
-  // the table, and as many points as hashes
+  // The same of many without copies. REQUIRES that the points last as long as the table, and as
+  // many hashes and ids, which are written, as points
   void intern_lasting(const ExactPoints& points, std::span<const HashedPoint> hashed,
-                      std::vector<PointId>& ids);
+                      std::span<PointId> ids);
 
   // Room for so many more.
   void reserve(std::size_t more);

@@ -198,7 +198,7 @@ class SceneBuilder {
       planes += shape.polyhedron->facets.size();
     }
     builder_.reserve(points, planes);
-    points_.reserve(points);  // incidences refer to them
+    points_.resize(points);
     primitives_.reserve(shapes_.size());
   }
 
@@ -221,8 +221,11 @@ class SceneBuilder {
     }
     const std::vector<HashedPoint>& points = polyhedron.prepared->points;
     builder_.add_owner(shape.polyhedron);
-    shape.first_point = points_.size();
-    builder_.add_owned_points(polyhedron.vertices, points, points_);
+    shape.first_point = point_count_;
+    point_count_ += points.size();
+    // Planes of other shapes are added meanwhile: no size that they ask for may change.
+    builder_.add_owned_points(polyhedron.vertices, points,
+                              std::span(points_).subspan(shape.first_point, points.size()));
   }
 
   // REQUIRES that its points were added.
@@ -337,6 +340,7 @@ class SceneBuilder {
   Geometry::Builder builder_;
   std::vector<ScenePrimitive> primitives_;
   std::vector<PointId> points_;  // of the vertices of all shapes in turn
+  std::size_t point_count_ = 0;  // of those that are known
   FacetIndex facet_count_ = 0;
   std::uint32_t corner_count_ = 0;
   std::uint32_t plane_count_ = 0;  // as added
