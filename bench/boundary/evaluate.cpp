@@ -21,9 +21,9 @@
 #include "cli/allocator.hpp"
 #include "exactcsg/solid/evaluate.hpp"
 #include "exactcsg/solid/figures.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/incremental_evaluation.hpp"
 #include "exactcsg/solid/scaled_vertices.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg::bench {
 namespace {

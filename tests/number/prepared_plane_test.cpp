@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include "exactcsg/number/prepared_plane.hpp"
 #include "exactcsg/support/error.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 #include "number/reference.hpp"
 
 namespace exactcsg {
@@ -123,6 +126,90 @@ TEST(Builder, TellsPointsOfEqualDoublesApart) {
         const PointId id = builder.add_point({origin + i, origin, Rational(1, 3)});
         ASSERT_EQ(static_cast<long>(id), i);
       }
+    }
+  }
+}
+
+// Planes through three points each of a grid, of which many coincide in either sense.
+struct PlanesOfGrid {
+  using Triple = std::array<std::uint32_t, 3>;
+  std::vector<Point3> points;
+  std::vector<Triple> triples;
+
+  explicit PlanesOfGrid(const Rational& step) {
+    constexpr long side = 16;
+    for (long i = 0; i < side * side * side; ++i) {
+      points.push_back(
+          {step * (i % side), step * Rational(i / side % side, 3), step * (i / (side * side))});
+    }
+    std::mt19937 random(7);
+    while (triples.size() < 9000) {
+      Triple triple{};
+      for (std::uint32_t& point : triple) {
+        point = static_cast<std::uint32_t>(random() % points.size());
+      }
+      const auto [a, b, c] = triple;
+      if (cross(points[b] - points[a], points[c] - points[a]) != Vector3{}) {
+        triples.push_back(triple);
+      }
+    }
+  }
+
+  Geometry one_by_one() const {
+    Geometry::Builder builder;
+    for (const Point3& point : points) builder.add_point(point);
+    for (const auto& [a, b, c] : triples) builder.add_plane(PointId{a}, PointId{b}, PointId{c});
+    return std::move(builder).build();
+  }
+
+  Geometry at_once(unsigned threads) const {
+    Geometry::Builder builder;
+    std::vector<ApproximatePoint> near;
+    for (const Point3& point : points) {
+      builder.add_point(point);
+      near.push_back(approximate(point));
+    }
+    const std::uint32_t first = builder.add_planes(triples.size(), threads);
+    in_parallel(threads, triples.size(), [&](std::size_t i) {
+      const std::uint32_t a = triples[i][0];
+      const std::uint32_t b = triples[i][1];
+      const std::uint32_t c = triples[i][2];
+      builder.set_plane(
+          static_cast<std::uint32_t>(first + i),
+          prepared_plane({points[a], near[a]}, {points[b], near[b]}, {points[c], near[c]}),
+          PointId{a}, PointId{b}, PointId{c});
+    });
+    // Each of them twice.
+    for (std::uint32_t i = 0; i < 2 * triples.size(); ++i) {
+      const std::uint32_t plane = i % static_cast<std::uint32_t>(triples.size());
+      for (const std::uint32_t point : triples[plane]) {
+        builder.add_incidence(PointId{point}, first + plane);
+      }
+    }
+    return std::move(builder).build(threads);
+  }
+};
+
+// Expected: the planes that are added one by one, and incidences that are known without computing.
+TEST(Builder, PlanesThatThreadsSetAreThoseAddedOneByOne) {
+  // The doubles of planes far away are left out of what they are compared by.
+  for (const Rational& step : {Rational(1), Rational(Integer(1) << 500)}) {
+    const PlanesOfGrid grid(step);
+    const Geometry expected = grid.one_by_one();
+    for (const unsigned threads : {1U, 3U}) {
+      const Geometry geometry = grid.at_once(threads);
+      EXPECT_TRUE(std::ranges::equal(geometry.planes(), expected.planes()));
+      ASSERT_LT(geometry.plane_count(), grid.triples.size());
+      TierStatistics statistics;
+      for (std::uint32_t i = 0; i < grid.triples.size(); ++i) {
+        const PlaneRef plane = geometry.plane(i).plane;
+        EXPECT_EQ(geometry.exact_plane(plane), expected.exact_plane(plane));
+        for (const std::uint32_t point : grid.triples[i]) {
+          EXPECT_EQ(geometry.side(geometry.vertex(PointId{point}), plane, statistics), Sign::Zero);
+        }
+      }
+      EXPECT_EQ(statistics.answers[static_cast<std::size_t>(Tier::Symbolic)],
+                3 * grid.triples.size());
     }
   }
 }

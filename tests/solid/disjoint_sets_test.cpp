@@ -7,7 +7,7 @@
 
 #include <random>
 
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Expected: what the same loop does on one thread.
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 #include "exactcsg/solid/first_error.hpp"
 
 #include <gtest/gtest.h>

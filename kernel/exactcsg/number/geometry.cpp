@@ -64,6 +64,14 @@ Plane Geometry::exact_plane_value(PlaneRef plane) const {
 
 PointRecord Geometry::point(PointId id) const { return data_->points.record(id); }
 
+void Geometry::ask_for_point(PointId id) const { data_->points.ask_for(id); }
+
+void Geometry::ask_for_points_on(PlaneRef plane) const {
+  if (plane.is_wall()) return;
+  __builtin_prefetch(&data_->points_of_planes.begin[plane.table_index()]);
+  __builtin_prefetch(&approximate_[plane.table_index()]);
+}
+
 namespace {
 
 double coordinate(const ApproximatePoint& p, std::size_t axis) {

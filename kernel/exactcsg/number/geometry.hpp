@@ -162,6 +162,10 @@ class Geometry {
   Point3 exact_point(const Vertex& v) const { return point_of(exact_view(v).exact); }
   // The same, of limbs that last until the thread calls this again. COST: less than of the point
   NearPointView exact_view(const Vertex& v) const;
+  // Ask the memory for what point(id) will read, and exact_view of the meeting point of planes like
+  // this one: passes in an order that is not that of the ids wait for most of it.
+  void ask_for_point(PointId id) const;
+  void ask_for_points_on(PlaneRef plane) const;
 
   Vertex vertex(PointId id) const {
     return vertex_of(id, approximate_points_[static_cast<std::size_t>(id)]);
@@ -269,6 +273,11 @@ class Geometry::Builder {
   std::uint32_t add_plane(PreparedPlane plane, PointId p, PointId q, Axis axis);
   // REQUIRES coprime coefficients (LAW plane.1)
   std::uint32_t add_plane(const Plane& plane);
+  // Room for so many planes at once, each of which is to be set, by any thread, before anything
+  // else is done. Returns the index of the first one.
+  std::uint32_t add_planes(std::size_t count, unsigned threads = 1);
+  void set_plane(std::uint32_t added, PreparedPlane plane, PointId p, PointId q, PointId r);
+  void set_plane(std::uint32_t added, PreparedPlane plane, PointId p, PointId q, Axis axis);
   // States that the point lies on the added plane (not checked in release builds): tier 0.
   void add_incidence(PointId point, std::uint32_t added_plane);
   // The same of many. REQUIRES that what is referred to lasts until build()
@@ -279,7 +288,8 @@ class Geometry::Builder {
 
   // Finds coincident planes once and for all. COST: O(n log n) doubles, exact comparisons only
   // between planes whose certified doubles cannot tell them apart.
-  Geometry build() &&;
+  // threads: 0 for as many as there are cores; the result does not depend on them.
+  Geometry build(unsigned threads = 1) &&;
 
  private:
   struct State;

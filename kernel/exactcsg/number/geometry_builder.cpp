@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "exactcsg/number/coincidence.hpp"
 #include "exactcsg/number/geometry_data.hpp"
 #include "exactcsg/number/prepared_plane.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 
@@ -46,29 +49,43 @@ struct Geometry::Builder::State {
 
 namespace {
 
-// The rows of value v hold r where the rows of `table` hold v in row r. Ascending.
-SparseTable transposed(const SparseTable& table, std::size_t rows) {
+// The rows of value v hold r where the rows of `table` hold v in row r. Ascending. Each of a few
+// tasks takes the values of a range out of all of them: looking at one takes less than moving it.
+SparseTable transposed(const SparseTable& table, std::size_t rows, unsigned threads) {
   SparseTable result;
-  result.begin.assign(rows + 1, 0);
-  for (const std::uint32_t value : table.values) ++result.begin[value + 1];
-  for (std::size_t i = 1; i <= rows; ++i) result.begin[i] += result.begin[i - 1];
+  std::vector<std::uint32_t>& begin = result.begin;
+  begin.assign(rows + 1, 0);
+  const std::size_t ranges = threads == 1 ? 1 : 4;
+  const auto for_each_value = [&](const auto& visit) {
+    in_parallel(threads, ranges, [&](std::size_t range) {
+      const auto first = static_cast<std::uint32_t>(rows * range / ranges);
+      const auto count = static_cast<std::uint32_t>(rows * (range + 1) / ranges) - first;
+      for (std::uint32_t row = 0; row + 1 < table.begin.size(); ++row) {
+        for (const std::uint32_t value : table.row(row)) {
+          if (value - first < count) visit(value, row);
+        }
+      }
+    });
+  };
+  // Each place is where the row before begins, until it has been filled.
+  std::uint32_t* const place = begin.data() + 1;
+  for_each_value([place](std::uint32_t value, std::uint32_t) { ++place[value]; });
+  std::exclusive_scan(place, place + rows, place, 0U);
   result.values.resize(table.values.size());
-  std::vector<std::uint32_t> next(result.begin.begin(), result.begin.end() - 1);
-  for (std::uint32_t row = 0; row + 1 < table.begin.size(); ++row) {
-    for (const std::uint32_t value : table.row(row)) result.values[next[value]++] = row;
-  }
+  for_each_value(
+      [&](std::uint32_t value, std::uint32_t row) { result.values[place[value]++] = row; });
   return result;
 }
 
-// Sorts each row and keeps each value once.
-void make_rows_ascend(SparseTable& table) {
-  // Rows only become shorter: they are moved to the front in place.
+// Sorts each of these rows and keeps each value once. Rows only become shorter: they are moved to
+// the front of the place of all. Returns where the last one ends.
+std::uint32_t make_rows_ascend(SparseTable& table, std::size_t first, std::size_t last) {
   std::uint32_t* const values = table.values.data();
-  std::uint32_t written = 0;
-  std::uint32_t read = 0;
-  for (std::size_t row = 0; row + 1 < table.begin.size(); ++row) {
+  std::uint32_t written = table.begin[first];
+  std::uint32_t read = written;
+  for (std::size_t row = first; row < last; ++row) {
     const std::uint32_t end = table.begin[row + 1];
-    table.begin[row] = written;
+    if (row != first) table.begin[row] = written;  // the first one stays: others read where it is
     std::uint32_t ascending = read + 1;
     while (ascending < end && values[ascending - 1] < values[ascending]) ++ascending;
     std::uint32_t kept = end;
@@ -80,30 +97,70 @@ void make_rows_ascend(SparseTable& table) {
     written += kept - read;
     read = end;
   }
+  return written;
+}
+
+// Puts the canonical planes in the place of the added ones, each once and ascending.
+void make_canonical(const std::vector<OrientedPlaneRef>& of_added, SparseTable& table,
+                    unsigned threads) {
+  const Parts parts(table.begin.size() - 1);
+  std::vector<std::uint32_t> ends(parts.count());
+  in_parallel(threads, parts, [&](std::size_t part, std::size_t first, std::size_t last) {
+    for (std::uint32_t i = table.begin[first]; i < table.begin[last]; ++i) {
+      table.values[i] = of_added[table.values[i]].plane.table_index();
+    }
+    ends[part] = make_rows_ascend(table, first, last);
+  });
+  std::uint32_t written = 0;
+  for (std::size_t part = 0; part < parts.count(); ++part) {
+    const std::uint32_t begin = table.begin[parts.begin(part)];
+    if (written != begin) {
+      std::copy(table.values.data() + begin, table.values.data() + ends[part],
+                table.values.data() + written);
+      for (std::size_t row = parts.begin(part); row < parts.end(part); ++row) {
+        table.begin[row] -= begin - written;
+      }
+    }
+    written += ends[part] - begin;
+  }
   table.begin.back() = written;
   table.values.resize(written);
 }
 
-// Incidences come plane by plane mostly, so that counting once sorts them.
-// for_each_incidence(visit) calls visit(point, added plane).
+// The planes of each point, as added. Incidences come plane by plane mostly, so that counting once
+// sorts them. for_each_incidence(visit) calls visit(point, added plane).
 template <class ForEachIncidence>
-void fill_incidences(const ForEachIncidence& for_each_incidence, Geometry::Data& data) {
-  SparseTable& table = data.planes_of_points;
+SparseTable added_planes_of_points(std::size_t points, const ForEachIncidence& for_each_incidence) {
+  SparseTable table;
   std::vector<std::uint32_t>& begin = table.begin;
-  begin.assign(data.points.size() + 1, 0);
+  begin.assign(points + 1, 0);
   // Each place is where the row before begins, until it has been filled.
-  std::uint32_t* const count = begin.data() + 1;
+  std::uint32_t* const place = begin.data() + 1;
   for_each_incidence(
-      [count](PointId point, std::uint32_t) { ++count[static_cast<std::size_t>(point)]; });
+      [place](PointId point, std::uint32_t) { ++place[static_cast<std::size_t>(point)]; });
   std::uint32_t sum = 0;
   for (std::size_t i = 1; i < begin.size(); ++i) sum += std::exchange(begin[i], sum);
   table.values.resize(sum);
   for_each_incidence([&](PointId point, std::uint32_t plane) {
-    table.values[count[static_cast<std::size_t>(point)]++] =
-        data.of_added[plane].plane.table_index();
+    table.values[place[static_cast<std::size_t>(point)]++] = plane;
   });
-  make_rows_ascend(table);
-  data.points_of_planes = transposed(table, data.planes.size());
+  return table;
+}
+
+// Numbers the distinct planes in the order in which they were added. Returns the first of each.
+std::vector<std::uint32_t> number_distinct(const std::vector<PlaneClass>& classes,
+                                           std::vector<OrientedPlaneRef>& of_added) {
+  of_added.resize(classes.size());
+  std::vector<std::uint32_t> firsts;
+  for (std::uint32_t i = 0; i < classes.size(); ++i) {
+    if (classes[i].first == i) {
+      of_added[i].plane = PlaneRef::of_table(static_cast<std::uint32_t>(firsts.size()));
+      firsts.push_back(i);
+    } else {
+      of_added[i] = {of_added[classes[i].first].plane, classes[i].sense};
+    }
+  }
+  return firsts;
 }
 
 }  // namespace
@@ -148,6 +205,20 @@ std::uint32_t Geometry::Builder::add_plane(const Plane& plane) {
   return state_->planes.add(prepared_plane(plane), {});
 }
 
+std::uint32_t Geometry::Builder::add_planes(std::size_t count, unsigned threads) {
+  return state_->planes.add_unset(count, threads);
+}
+
+void Geometry::Builder::set_plane(std::uint32_t added, PreparedPlane plane, PointId p, PointId q,
+                                  PointId r) {
+  state_->planes.set(added, std::move(plane), {p, q, r});
+}
+
+void Geometry::Builder::set_plane(std::uint32_t added, PreparedPlane plane, PointId p, PointId q,
+                                  Axis axis) {
+  state_->planes.set(added, std::move(plane), {p, q, axis});
+}
+
 void Geometry::Builder::reserve(std::size_t points, std::size_t planes) {
   state_->points.reserve(points);
   state_->planes.reserve(planes);
@@ -159,26 +230,33 @@ void Geometry::Builder::add_incidence(PointId point, std::uint32_t added_plane) 
 
 void Geometry::Builder::add_incidences(const PointsOnPlanes& rows) { state_->rows.push_back(rows); }
 
-Geometry Geometry::Builder::build() && {
+Geometry Geometry::Builder::build(unsigned threads) && {
   State& state = *state_;
-  const std::vector<PlaneClass> classes = coincidence_classes(state.planes, state.points);
   auto data = std::make_unique<Data>();
-  data->of_added.resize(classes.size());
-  std::vector<std::uint32_t> firsts;
-  for (std::uint32_t i = 0; i < classes.size(); ++i) {
-    if (classes[i].first == i) {
-      data->of_added[i].plane = PlaneRef::of_table(static_cast<std::uint32_t>(firsts.size()));
-      firsts.push_back(i);
+  std::vector<PlaneClass> classes;
+  in_parallel(threads, 2, [&](std::size_t task) {
+    if (task == 0) {
+      classes = coincidence_classes(state.planes, state.points);
     } else {
-      data->of_added[i] = {data->of_added[classes[i].first].plane, classes[i].sense};
+      data->planes_of_points = added_planes_of_points(
+          state.points.size(), [&state](const auto& visit) { state.for_each_incidence(visit); });
     }
-  }
-  data->planes = PlaneTable(std::move(state.planes), firsts);
-  data->points = std::move(state.points);
-  data->points.close();
+  });
+  const std::vector<std::uint32_t> firsts = number_distinct(classes, data->of_added);
+  const std::size_t points = state.points.size();
+  in_parallel(threads, 3, [&](std::size_t task) {
+    if (task == 0) {
+      make_canonical(data->of_added, data->planes_of_points, threads);
+      data->points_of_planes = transposed(data->planes_of_points, firsts.size(), threads);
+    } else if (task == 1) {
+      data->planes = PlaneTable(std::move(state.planes), firsts);
+      data->points = std::move(state.points);
+      data->points.close();
+    } else {
+      data->homogeneous_points = LazyTable<Homogeneous<Integer>>(points);
+    }
+  });
   data->owners = std::move(state.owners);
-  data->homogeneous_points = LazyTable<Homogeneous<Integer>>(data->points.size());
-  fill_incidences([&state](const auto& visit) { state.for_each_incidence(visit); }, *data);
   state_.reset();
   return Geometry(std::move(data));
 }

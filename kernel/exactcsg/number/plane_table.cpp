@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "exactcsg/number/coincidence.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 
@@ -15,13 +16,30 @@ bool is_remote(const ApproximatePlane& plane) {
 }
 
 std::uint32_t AddedPlanes::add(PreparedPlane plane, const PlanePoints& points) {
-  const std::uint32_t index = size();
-  if (plane.exact) exact_.emplace(index, std::move(plane.exact));
-  approximate_.push_back(plane.near);
-  keys_.push_back({plane.key, index});
-  if (is_remote(plane.near)) remote_.push_back(index);
-  points_.push_back(points);
+  const std::uint32_t index = add_unset(1, 1);
+  set(index, std::move(plane), points);
   return index;
+}
+
+std::uint32_t AddedPlanes::add_unset(std::size_t count, unsigned threads) {
+  const std::uint32_t first = size();
+  reserve(count);
+  resize(threads, approximate_, first + count);
+  resize(threads, keys_, first + count);
+  resize(threads, points_, first + count);
+  return first;
+}
+
+void AddedPlanes::set(std::uint32_t i, PreparedPlane plane, const PlanePoints& points) {
+  const bool remote = is_remote(plane.near);
+  if (remote || plane.exact) {
+    const std::scoped_lock lock(setting_);
+    if (remote) remote_.push_back(i);
+    if (plane.exact) exact_.emplace(i, std::move(plane.exact));
+  }
+  approximate_[i] = plane.near;
+  keys_[i] = {plane.key, i};
+  points_[i] = points;
 }
 
 void AddedPlanes::reserve(std::size_t more) {
@@ -46,6 +64,7 @@ const Plane& AddedPlanes::exact(const PointTable& points, std::uint32_t i) {
 // equal planes agree on it.
 AddedPlanes::ByKey AddedPlanes::take_keys(const PointTable& points) {
   ByKey result{std::move(keys_), {}};
+  std::sort(remote_.begin(), remote_.end());
   for (const std::uint32_t i : remote_) {
     approximate_[i] = exactcsg::approximate(exact(points, i));
     result.keyed[i].key = key_of(approximate_[i]);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -71,10 +72,14 @@ struct KeyedPlane {
   std::uint32_t plane;
 };
 
-// The planes in the order in which they were added, each as often as it was. For one thread.
+// The planes in the order in which they were added, each as often as it was. For one thread, but
+// for set().
 class AddedPlanes {
  public:
   std::uint32_t add(PreparedPlane plane, const PlanePoints& points);
+  // Room for so many, each to be set, by any thread, before it is asked for. Returns the first one.
+  std::uint32_t add_unset(std::size_t count, unsigned threads);
+  void set(std::uint32_t i, PreparedPlane plane, const PlanePoints& points);
   void reserve(std::size_t more);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(approximate_.size()); }
@@ -96,9 +101,10 @@ class AddedPlanes {
 
   std::vector<ApproximatePlane> approximate_;
   std::vector<KeyedPlane> keys_;
-  std::vector<std::uint32_t> remote_;  // by the doubles that were added
+  std::vector<std::uint32_t> remote_;  // by the doubles that were added, in any order
   std::vector<PlanePoints> points_;
   std::unordered_map<std::uint32_t, std::unique_ptr<const Plane>> exact_;
+  std::mutex setting_;  // of remote_ and exact_
 };
 
 // Distinct planes, immutable but for the cache of exact coefficients. For any number of threads.

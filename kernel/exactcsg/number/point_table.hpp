@@ -31,6 +31,7 @@ class PointTable {
 
   std::size_t size() const { return points_.size(); }
   PointRecord record(PointId id) const { return points_[static_cast<std::size_t>(id)]; }
+  void ask_for(PointId id) const { __builtin_prefetch(&points_[static_cast<std::size_t>(id)]); }
   PointView exact(PointId id) const { return record(id).view(); }
   const ApproximatePoint& approximate(PointId id) const {
     return approximate_[static_cast<std::size_t>(id)];

@@ -44,9 +44,9 @@
 #include <utility>
 #include <vector>
 
-#include "exactcsg/skeleton/hand_over.hpp"
-#include "exactcsg/skeleton/in_arena.hpp"
 #include "exactcsg/support/error.hpp"
+#include "exactcsg/support/hand_over.hpp"
+#include "exactcsg/support/in_arena.hpp"
 
 namespace exactcsg::skeleton {
 
@@ -333,17 +333,17 @@ class ParallelRun {
         solve_or_fail(parts[i], levels, place, slots[i]);
       }
     };
-    const TakeOverAtEnd before_unwinding(&slots);
+    const exactcsg::detail::TakeOverAtEnd before_unwinding(&slots);
     tbb::task_group group;
     for (std::size_t i = 1; i < parts.size(); ++i) {
       const auto work = [&solve, i] { solve(i); };
-      group.run(HandedOver(work, &slots));
+      group.run(exactcsg::detail::HandedOver(work, &slots));
     }
     const auto first = [&] {
       if (!parts.empty()) solve(0);
     };
     if (group.run_and_wait(first) == tbb::canceled) throw Interrupted{};
-    take_over(&slots);
+    exactcsg::detail::take_over(&slots);
     return results_of(slots, last.index());
   }
 
@@ -424,13 +424,13 @@ class ParallelExecutor {
   typename A::Result run(typename A::Problem problem, A& algorithm) const {
     detail::ParallelRun<A, WorthATask> parallel(algorithm, worth_a_task_);
     std::optional<typename A::Result> result;
-    const detail::TakeOverAtEnd before_unwinding(&result);
-    detail::in_arena(concurrency(), [&] {
-      const detail::HandOverAtEnd done(&result);
+    const exactcsg::detail::TakeOverAtEnd before_unwinding(&result);
+    exactcsg::detail::in_arena(concurrency(), [&] {
+      const exactcsg::detail::HandOverAtEnd done(&result);
       tbb::task_group group;  // so that an outer computation's cancellation is not taken for ours
       group.run_and_wait([&] { result = parallel.run(std::move(problem), levels_); });
     });
-    detail::take_over(&result);
+    exactcsg::detail::take_over(&result);
     if (!result) throw Error(ErrorId::Cancelled, {"an enclosing group of tasks", ""});
     return std::move(*result);
   }

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "exactcsg/number/sort_in_buckets.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

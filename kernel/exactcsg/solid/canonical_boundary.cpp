@@ -15,7 +15,7 @@
 #include "exactcsg/solid/disjoint_sets.hpp"
 #include "exactcsg/solid/edge_contacts.hpp"
 #include "exactcsg/solid/face_loops.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/solid/in_parallel_counting.hpp"
 #include "exactcsg/solid/line_interning.hpp"
 #include "exactcsg/solid/line_sum.hpp"
 #include "exactcsg/solid/ordered_vertices.hpp"

@@ -9,7 +9,7 @@
 
 #include "exactcsg/csg/membership.hpp"
 #include "exactcsg/solid/classify.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "exactcsg/solid/box_pairs.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/solid/in_parallel_counting.hpp"
 #include "exactcsg/solid/nearest_crossing.hpp"
 
 namespace exactcsg {

@@ -19,7 +19,7 @@
 #include "exactcsg/solid/canonical_boundary.hpp"
 #include "exactcsg/solid/facet_parts.hpp"
 #include "exactcsg/solid/facet_stabbing.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/solid/in_parallel_counting.hpp"
 #include "exactcsg/solid/polyhedron_check.hpp"
 #include "exactcsg/solid/prepared_polyhedron.hpp"
 #include "exactcsg/solid/whole_facets.hpp"

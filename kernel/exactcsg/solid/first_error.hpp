@@ -8,7 +8,7 @@
 #include <exception>
 #include <mutex>
 
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "exactcsg/number/certified_double.hpp"
+#include "exactcsg/solid/in_parallel_counting.hpp"
 #include "exactcsg/solid/vertex_interning.hpp"
 
 namespace exactcsg {

@@ -14,9 +14,9 @@
 
 #include "exactcsg/solid/box_pairs.hpp"
 #include "exactcsg/solid/first_error.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/polyhedron_check.hpp"
 #include "exactcsg/support/error.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "exactcsg/solid/bucket_sort.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 
@@ -150,10 +150,9 @@ class PointsAhead {
 
   void ask_beyond(std::size_t i) const {
     constexpr std::size_t distance = 6;  // which takes longer than a line of memory to arrive
-    if (i + 3 * distance < wanted_.size()) vertices_.prefetch_place(vertex(i + 3 * distance));
-    if (i + 2 * distance < wanted_.size()) {
-      vertices_.prefetch(vertex(i + 2 * distance));
-    }
+    if (i + 4 * distance < wanted_.size()) vertices_.prefetch_place(vertex(i + 4 * distance));
+    if (i + 3 * distance < wanted_.size()) vertices_.prefetch(vertex(i + 3 * distance));
+    if (i + 2 * distance < wanted_.size()) ask_where_it_is(vertex(i + 2 * distance));
     if (i + distance < wanted_.size() && vertices_.is_point(vertex(i + distance))) {
       // Of points whose coordinates are as long as doubles the limbs take one line or two.
       const PointRecord point = geometry_.point(vertices_.point(vertex(i + distance)));
@@ -165,6 +164,15 @@ class PointsAhead {
 
  private:
   std::uint32_t vertex(std::size_t i) const { return wanted_[i].vertex; }
+
+  void ask_where_it_is(std::uint32_t v) const {
+    if (vertices_.is_point(v)) {
+      geometry_.ask_for_point(vertices_.point(v));
+      return;
+    }
+    const Vertex met = vertices_[v];
+    for (const PlaneRef plane : met.planes) geometry_.ask_for_points_on(plane);
+  }
 
   const Geometry& geometry_;
   const VertexRow& vertices_;

@@ -9,8 +9,8 @@
 
 #include "exactcsg/solid/bucket_sort.hpp"
 #include "exactcsg/solid/first_error.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/polyhedron_signs.hpp"
 #include "exactcsg/support/error.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

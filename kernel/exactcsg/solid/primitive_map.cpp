@@ -4,10 +4,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/prepared_polyhedron.hpp"
 #include "exactcsg/solid/primitive_in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

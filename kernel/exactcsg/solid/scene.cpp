@@ -10,10 +10,10 @@
 #include <unordered_map>
 
 #include "exactcsg/number/homogeneous.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/polygon.hpp"
 #include "exactcsg/solid/prepared_polyhedron.hpp"
 #include "exactcsg/support/give_up.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 
@@ -36,7 +36,7 @@ class SceneBuilder {
     SceneBounds bounds;
     in_parallel(threads, 2, [&](std::size_t task) {
       if (task == 0) {
-        geometry.emplace(std::move(builder_).build());
+        geometry.emplace(std::move(builder_).build(threads));
         return;
       }
       resize(threads, corners, corner_count_);
@@ -151,41 +151,22 @@ class SceneBuilder {
     return nullptr;
   }
 
-  // Numbers points and planes in the order of the primitives: the points of some beside the planes
-  // of those before.
+  // Numbers points and planes in the order of the primitives, of some at a time; then all threads
+  // set these planes.
   void add_shapes(unsigned threads) {
     make_room();
-    const std::size_t at_a_time = threads == 1 ? 1 : 64;
-    std::span<Shape> before;
+    const std::size_t at_a_time = threads == 1 ? 1 : 256;
     for (std::size_t first = 0; first < shapes_.size(); first += at_a_time) {
       const std::span<Shape> shapes =
           std::span(shapes_).subspan(first, std::min(at_a_time, shapes_.size() - first));
-      in_parallel(threads, 2, [&](std::size_t task) {
-        if (task == 0) {
-          add_points(shapes);
+      for (Shape& shape : shapes) {
+        if (shape.polyhedron) {
+          add_polyhedron(shape, threads);
         } else {
-          add(before);
+          add_half_space(shape);
         }
-      });
-      before = shapes;
-    }
-    add(before);
-  }
-
-  void add_points(std::span<Shape> shapes) {
-    for (Shape& shape : shapes) {
-      if (shape.polyhedron) add_points(shape);
-    }
-  }
-
-  // All but the points.
-  void add(std::span<Shape> shapes) {
-    for (Shape& shape : shapes) {
-      if (shape.polyhedron) {
-        add_polyhedron(shape);
-      } else {
-        add_half_space(shape);
       }
+      set_planes(shapes, threads);
     }
   }
 
@@ -206,7 +187,6 @@ class SceneBuilder {
     const Plane& plane = shape.half_space->plane;
     primitives_.push_back({true, facet_count_++, 1});
     shape.first_plane = builder_.add_plane(plane);
-    ++plane_count_;
     for (const Integer* n : {&plane.a, &plane.b, &plane.c}) {
       largest_normal_ = std::max(largest_normal_, std::abs(n->get_d()));
     }
@@ -214,23 +194,13 @@ class SceneBuilder {
     has_half_spaces_ = true;
   }
 
-  void add_points(Shape& shape) {
+  // All but the planes, for which it makes room.
+  void add_polyhedron(Shape& shape, unsigned threads) {
     const StoredPolyhedron& polyhedron = *shape.polyhedron;
     if (!polyhedron.prepared) {
       throw Error(ErrorId::NumberOutOfRange, {"a coordinate beyond 1e290", ""});
     }
-    const std::vector<HashedPoint>& points = polyhedron.prepared->points;
-    builder_.add_owner(shape.polyhedron);
-    shape.first_point = point_count_;
-    point_count_ += points.size();
-    // Planes of other shapes are added meanwhile: no size that they ask for may change.
-    builder_.add_owned_points(polyhedron.vertices, points,
-                              std::span(points_).subspan(shape.first_point, points.size()));
-  }
-
-  // REQUIRES that its points were added.
-  void add_polyhedron(Shape& shape) {
-    const PreparedPolyhedron& known = *shape.polyhedron->prepared;
+    const PreparedPolyhedron& known = *polyhedron.prepared;
     const FacetPlanes& facets = *known.facets;
     primitives_.push_back({shape.convex, facet_count_, facets.facet_count()});
     facet_count_ += facets.facet_count();
@@ -240,25 +210,58 @@ class SceneBuilder {
       lower_[axis] = std::min(lower_[axis], known.bounds[axis].lower);
       upper_[axis] = std::max(upper_[axis], known.bounds[axis].upper);
     }
-    const auto point = [&](std::uint32_t v) { return points_[shape.first_point + v]; };
-    shape.first_plane = plane_count_;
-    plane_count_ += facets.plane_count();
-    const auto copy_of = [](const PreparedPlane& plane) {
-      return PreparedPlane{plane.near, plane.key,
-                           plane.exact ? std::make_unique<const Plane>(*plane.exact) : nullptr};
-    };
-    auto plane = known.planes.begin();
-    for (const auto& [a, b, c] : known.triples()) {
-      builder_.add_plane(copy_of(*plane++), point(a), point(b), point(c));
+    shape.first_point = point_count_;
+    point_count_ += known.points.size();
+    const std::span<PointId> points =
+        std::span(points_).subspan(shape.first_point, known.points.size());
+    builder_.add_owner(shape.polyhedron);
+    builder_.add_owned_points(polyhedron.vertices, known.points, points);
+    shape.first_plane = builder_.add_planes(facets.plane_count(), threads);
+    builder_.add_incidences({points, facets.facets.begins(), facets.facets.corners(),
+                             facets.of_facets, shape.first_plane});
+    auto plane = shape.first_plane + static_cast<std::uint32_t>(known.triples().size());
+    for (const PlaneAcross& across : facets.across) {
+      builder_.add_incidence(points[across.from], plane);
+      builder_.add_incidence(points[across.to], plane++);
     }
-    builder_.add_incidences(
-        {std::span(points_).subspan(shape.first_point, shape.polyhedron->vertices.size()),
-         facets.facets.begins(), facets.facets.corners(), facets.of_facets, shape.first_plane});
-    for (const auto& [from, to, axis] : facets.across) {
-      const std::uint32_t added =
-          builder_.add_plane(copy_of(*plane++), point(from), point(to), axis);
-      builder_.add_incidence(point(from), added);
-      builder_.add_incidence(point(to), added);
+  }
+
+  // The planes of these shapes, of large ones in parts.
+  void set_planes(std::span<const Shape> shapes, unsigned threads) {
+    struct Part {
+      const Shape* shape;
+      std::uint32_t begin;
+      std::uint32_t end;
+    };
+    constexpr std::uint32_t most = 4096;
+    std::vector<Part> parts;
+    for (const Shape& shape : shapes) {
+      if (!shape.polyhedron) continue;
+      const std::uint32_t count = shape.polyhedron->prepared->facets->plane_count();
+      for (std::uint32_t begin = 0; begin < count; begin += most) {
+        parts.push_back({&shape, begin, std::min(begin + most, count)});
+      }
+    }
+    in_parallel(threads, parts.size(), [&](std::size_t i) {
+      for (std::uint32_t p = parts[i].begin; p < parts[i].end; ++p) set_plane(*parts[i].shape, p);
+    });
+  }
+
+  // The plane p of the shape's own.
+  void set_plane(const Shape& shape, std::uint32_t p) {
+    const PreparedPolyhedron& known = *shape.polyhedron->prepared;
+    const PreparedPlane& plane = known.planes[p];
+    PreparedPlane copy{plane.near, plane.key,
+                       plane.exact ? std::make_unique<const Plane>(*plane.exact) : nullptr};
+    const auto point = [&](std::uint32_t v) { return points_[shape.first_point + v]; };
+    const std::uint32_t added = shape.first_plane + p;
+    const std::vector<Triple>& triples = known.triples();
+    if (p < triples.size()) {
+      const auto [a, b, c] = triples[p];
+      builder_.set_plane(added, std::move(copy), point(a), point(b), point(c));
+    } else {
+      const auto [from, to, axis] = known.facets->across[p - triples.size()];
+      builder_.set_plane(added, std::move(copy), point(from), point(to), axis);
     }
   }
 
@@ -343,7 +346,6 @@ class SceneBuilder {
   std::size_t point_count_ = 0;  // of those that are known
   FacetIndex facet_count_ = 0;
   std::uint32_t corner_count_ = 0;
-  std::uint32_t plane_count_ = 0;  // as added
   std::unordered_map<const StoredPolyhedron*, PrimitiveIndex> known_;
   std::array<double, 3> lower_{std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::infinity(),

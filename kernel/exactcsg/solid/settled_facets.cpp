@@ -5,7 +5,7 @@
 #include <atomic>
 #include <span>
 
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

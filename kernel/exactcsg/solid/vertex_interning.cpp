@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/solid/in_parallel_counting.hpp"
 #include "exactcsg/support/give_up.hpp"
 
 namespace exactcsg {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "exactcsg/number/geometry.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/vertex_row.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "exactcsg/number/geometry.hpp"
-#include "exactcsg/solid/in_parallel.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "exactcsg/solid/in_parallel.hpp"
 #include "exactcsg/solid/per_thread.hpp"
 #include "exactcsg/solid/polygon.hpp"
+#include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {
 

@@ -13,10 +13,9 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
-#include "exactcsg/number/tier_statistics.hpp"
-#include "exactcsg/skeleton/hand_over.hpp"
-#include "exactcsg/skeleton/in_arena.hpp"
 #include "exactcsg/support/give_up.hpp"
+#include "exactcsg/support/hand_over.hpp"
+#include "exactcsg/support/in_arena.hpp"
 
 namespace exactcsg {
 
@@ -48,14 +47,14 @@ void in_parallel(unsigned threads, std::size_t count, const Round& round) {
       throw;
     }
   };
-  const skeleton::detail::TakeOverAtEnd before_unwinding(&next);
+  const detail::TakeOverAtEnd before_unwinding(&next);
   // Not more threads than tasks are used anyway.
   const std::size_t places = std::max<std::size_t>(
       used, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
-  skeleton::detail::in_arena(static_cast<int>(places), [&] {
+  detail::in_arena(static_cast<int>(places), [&] {
     tbb::task_group group;
     for (std::size_t task = 1; task < used; ++task) {
-      group.run(skeleton::detail::HandedOver(take_rounds, &next));
+      group.run(detail::HandedOver(take_rounds, &next));
     }
     group.run_and_wait(take_rounds);
   });
@@ -98,29 +97,6 @@ template <class Visit>
 void in_parallel(unsigned threads, const Parts& parts, const Visit& visit) {
   in_parallel(threads, parts.count(),
               [&](std::size_t part) { visit(part, parts.begin(part), parts.end(part)); });
-}
-
-// round(i, tiers) for every i below count; what it counts in `tiers` is added to `statistics`.
-template <class Round>
-void in_parallel_counting(unsigned threads, std::size_t count, TierStatistics& statistics,
-                          const Round& round) {
-  std::vector<TierStatistics> counted(count);
-  in_parallel(threads, count, [&](std::size_t i) {
-    TierStatistics tiers;  // of its own, since neighbours in a vector share lines of the cache
-    round(i, tiers);
-    counted[i] = tiers;
-  });
-  for (const TierStatistics& tiers : counted) statistics += tiers;
-}
-
-// visit(part, begin, end, tiers) for every part, likewise.
-template <class Visit>
-void in_parallel_counting(unsigned threads, const Parts& parts, TierStatistics& statistics,
-                          const Visit& visit) {
-  in_parallel_counting(threads, parts.count(), statistics,
-                       [&](std::size_t part, TierStatistics& tiers) {
-                         visit(part, parts.begin(part), parts.end(part), tiers);
-                       });
 }
 
 // round(i) for every i below count, many of which are done at once: for short rounds.

@@ -21,7 +21,7 @@ void __tsan_release(void* address);
 }
 #endif
 
-namespace exactcsg::skeleton::detail {
+namespace exactcsg::detail {
 
 inline void hand_over([[maybe_unused]] const void* thing) noexcept {
 #ifdef EXACTCSG_THREAD_SANITIZER
@@ -70,4 +70,4 @@ class HandedOver {
   const void* results_;
 };
 
-}  // namespace exactcsg::skeleton::detail
+}  // namespace exactcsg::detail

@@ -5,9 +5,9 @@
 
 #include <tbb/task_arena.h>
 
-#include "exactcsg/skeleton/hand_over.hpp"
+#include "exactcsg/support/hand_over.hpp"
 
-namespace exactcsg::skeleton::detail {
+namespace exactcsg::detail {
 
 // Runs `work`, which takes no tasks of others while it waits for its own: in the arena that the
 // thread is in, if that has `threads` places, or in one of its own. In the former, threads that
@@ -29,4 +29,4 @@ void in_arena(int threads, const Work& work) {
   });
 }
 
-}  // namespace exactcsg::skeleton::detail
+}  // namespace exactcsg::detail
