@@ -7,7 +7,7 @@
 #include <map>
 #include <span>
 
-#include "exactcsg/number/sort_in_buckets.hpp"
+#include "exactcsg/number/bucket_sort.hpp"
 
 namespace exactcsg {
 
@@ -142,35 +142,23 @@ PlaneKey key_of(const ApproximatePlane& p) {
 namespace {
 
 // By the lower ends of the keys, and by number.
-void sort_by_key(std::vector<KeyedPlane>& keyed) {
-  double lowest = infinity;
-  double highest = -infinity;
-  for (const KeyedPlane& item : keyed) {
-    if (!(item.key.lower > -infinity)) continue;
-    lowest = std::min(lowest, item.key.lower);
-    highest = std::max(highest, item.key.lower);
-  }
-  // Monotone, as both operations and rounding are; without a range everything is one bucket.
-  const auto last = static_cast<double>(keyed.size());
-  const double scale = lowest < highest ? last / (highest - lowest) : 0;
-  const auto bucket_of = [&](const KeyedPlane& item) -> std::size_t {
-    const double bucket = (item.key.lower - lowest) * scale;
-    return bucket > 0 ? static_cast<std::size_t>(std::min(bucket, last)) : 0;
-  };
-  std::vector<KeyedPlane> sorted(keyed.size());
-  sort_in_buckets(std::span(keyed), std::span(sorted), keyed.size() + 1, bucket_of,
-                  [](const KeyedPlane& k, const KeyedPlane& l) {
-                    return k.key.lower < l.key.lower ||
-                           (k.key.lower == l.key.lower && k.plane < l.plane);
-                  });
-  keyed = std::move(sorted);
+void sort_by_key(std::vector<KeyedPlane>& keyed, unsigned threads) {
+  const auto lower_end = [](const KeyedPlane& item) { return item.key.lower; };
+  const DoubleBuckets buckets(keyed, lower_end, threads);
+  sort_in_buckets(
+      keyed, buckets.count(), [&](const KeyedPlane& item) { return buckets.of(lower_end(item)); },
+      [](const KeyedPlane& k, const KeyedPlane& l) {
+        return k.key.lower < l.key.lower || (k.key.lower == l.key.lower && k.plane < l.plane);
+      },
+      threads);
 }
 
 }  // namespace
 
-std::vector<PlaneClass> coincidence_classes(AddedPlanes& planes, const PointTable& points) {
+std::vector<PlaneClass> coincidence_classes(AddedPlanes& planes, const PointTable& points,
+                                            unsigned threads) {
   auto [keyed, remote] = planes.take_keys(points);
-  sort_by_key(keyed);
+  sort_by_key(keyed, threads);
 
   Classifier classifier(planes, points);
   classifier.classify(remote);

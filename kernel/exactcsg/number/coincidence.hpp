@@ -20,6 +20,7 @@ struct PlaneClass {
 
 // For each added plane its class. LAW coincidence.1  two planes have the same `first` iff they are
 // the same point set. Exact coefficients are computed only where doubles cannot tell planes apart.
-std::vector<PlaneClass> coincidence_classes(AddedPlanes& planes, const PointTable& points);
+std::vector<PlaneClass> coincidence_classes(AddedPlanes& planes, const PointTable& points,
+                                            unsigned threads = 1);
 
 }  // namespace exactcsg

@@ -236,7 +236,7 @@ Geometry Geometry::Builder::build(unsigned threads) && {
   std::vector<PlaneClass> classes;
   in_parallel(threads, 2, [&](std::size_t task) {
     if (task == 0) {
-      classes = coincidence_classes(state.planes, state.points);
+      classes = coincidence_classes(state.planes, state.points, threads);
     } else {
       data->planes_of_points = added_planes_of_points(
           state.points.size(), [&state](const auto& visit) { state.for_each_incidence(visit); });

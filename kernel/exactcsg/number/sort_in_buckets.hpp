@@ -2,7 +2,7 @@
 #pragma once
 
 // Sorting by one thread of items whose keys are spread evenly over a known range; see
-// solid/bucket_sort.hpp. Private to the kernel.
+// number/bucket_sort.hpp. Private to the kernel.
 
 #include <algorithm>
 #include <bit>

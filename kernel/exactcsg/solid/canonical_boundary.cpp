@@ -11,7 +11,7 @@
 #include <optional>
 #include <tuple>
 
-#include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/number/bucket_sort.hpp"
 #include "exactcsg/solid/disjoint_sets.hpp"
 #include "exactcsg/solid/edge_contacts.hpp"
 #include "exactcsg/solid/face_loops.hpp"

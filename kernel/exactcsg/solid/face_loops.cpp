@@ -7,7 +7,7 @@
 #include <span>
 #include <tuple>
 
-#include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/number/bucket_sort.hpp"
 #include "exactcsg/support/error.hpp"
 #include "exactcsg/support/give_up.hpp"
 #include "exactcsg/support/in_parallel.hpp"

@@ -54,8 +54,9 @@ class Autopartition {
                                LocalPlace::decided(Membership::In)));
       std::vector<OwnedPolygon> positive;
       std::vector<OwnedPolygon> negative;
-      for (OwnedPolygon& polygon : region.polygons) {
-        distribute(std::move(polygon), divider.plane, positive, negative);
+      for (std::size_t i = 0; i < region.polygons.size(); ++i) {
+        distribute(std::move(region.polygons[i]), divider.plane, splits_of_divider_[i], positive,
+                   negative);
       }
       if (!positive.empty()) pending.push_back({std::move(positive), index, true});
       if (!negative.empty()) pending.push_back({std::move(negative), index, false});
@@ -64,43 +65,55 @@ class Autopartition {
   }
 
  private:
-  // The plane that cuts fewest of the others, among a few.
+  // The plane that cuts fewest of the others, among a few. What it does to those is kept.
   std::size_t choose_divider(const std::vector<OwnedPolygon>& polygons) {
-    if (polygons.size() <= 2) return 0;
     std::size_t best = 0;
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     const std::size_t step = std::max<std::size_t>(1, polygons.size() / 6);
-    for (std::size_t i = 0; i < polygons.size(); i += step) {
-      std::size_t cuts = 0;
-      for (std::size_t j = 0; j < polygons.size(); j += std::max<std::size_t>(1, step / 2)) {
-        if (polygons[j].plane.plane == polygons[i].plane.plane) continue;
-        cuts += split_signs(geometry_, polygons[j].corners, polygons[i].plane.plane, signs_,
-                            statistics_) == PlaneSplit::Both;
-      }
-      if (cuts < fewest) {
-        fewest = cuts;
-        best = i;
-        if (cuts == 0) break;
-      }
+    for (std::size_t i = 0; i < polygons.size() && fewest > 0; i += step) {
+      const std::size_t cuts = split_all(polygons, polygons[i].plane.plane, fewest);
+      if (cuts >= fewest) continue;
+      fewest = cuts;
+      best = i;
+      splits_of_divider_.swap(splits_);
     }
     return best;
   }
 
-  void distribute(OwnedPolygon polygon, PlaneRef divider, std::vector<OwnedPolygon>& positive,
-                  std::vector<OwnedPolygon>& negative) {
-    if (polygon.plane.plane == divider) return;
-    switch (split_signs(geometry_, polygon.corners, divider, signs_, statistics_)) {
+  // What the divider does to the polygons, into splits_. Returns how many it cuts, or `enough` if
+  // it cuts as many; then the rest is not asked for.
+  std::size_t split_all(const std::vector<OwnedPolygon>& polygons, PlaneRef divider,
+                        std::size_t enough) {
+    splits_.clear();
+    std::size_t cuts = 0;
+    for (const OwnedPolygon& polygon : polygons) {
+      const bool lies_in_it = polygon.plane.plane == divider;
+      splits_.push_back(
+          lies_in_it ? PlaneSplit::InPlane
+                     : split_signs(geometry_, polygon.corners, divider, signs_, statistics_));
+      if (!lies_in_it && splits_.back() == PlaneSplit::InPlane) {
+        throw Error(ErrorId::InternalError, {"a facet in a plane that is not its own", ""});
+      }
+      if (splits_.back() == PlaneSplit::Both && ++cuts == enough) break;
+    }
+    return cuts;
+  }
+
+  void distribute(OwnedPolygon polygon, PlaneRef divider, PlaneSplit split,
+                  std::vector<OwnedPolygon>& positive, std::vector<OwnedPolygon>& negative) {
+    switch (split) {
+      case PlaneSplit::InPlane:
+        return;
       case PlaneSplit::AllPositive:
         positive.push_back(std::move(polygon));
         return;
       case PlaneSplit::AllNegative:
         negative.push_back(std::move(polygon));
         return;
-      case PlaneSplit::InPlane:
-        throw Error(ErrorId::InternalError, {"a facet in a plane that is not its own", ""});
       case PlaneSplit::Both:
         break;
     }
+    split_signs(geometry_, polygon.corners, divider, signs_, statistics_);
     const PolygonCut cut(geometry_, polygon.corners, polygon.plane.plane, divider, signs_);
     positive.push_back({polygon.plane, {}});
     cut.append_part(polygon.corners, signs_, Sign::Positive, positive.back().corners);
@@ -112,6 +125,8 @@ class Autopartition {
   std::vector<LocalNode>& nodes_;
   TierStatistics& statistics_;
   std::vector<Sign> signs_;
+  std::vector<PlaneSplit> splits_;
+  std::vector<PlaneSplit> splits_of_divider_;
 };
 
 }  // namespace

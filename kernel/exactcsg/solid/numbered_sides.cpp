@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/number/bucket_sort.hpp"
 
 namespace exactcsg {
 

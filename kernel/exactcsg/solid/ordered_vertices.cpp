@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/number/bucket_sort.hpp"
 #include "exactcsg/support/in_parallel.hpp"
 
 namespace exactcsg {

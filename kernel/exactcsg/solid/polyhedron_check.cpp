@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/number/bucket_sort.hpp"
 #include "exactcsg/solid/first_error.hpp"
 #include "exactcsg/support/error.hpp"
 #include "exactcsg/support/in_parallel.hpp"

@@ -18,8 +18,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "exactcsg/number/bucket_sort.hpp"
 #include "exactcsg/solid/boundary.hpp"
-#include "exactcsg/solid/bucket_sort.hpp"
 #include "exactcsg/solid/face_planes.hpp"
 #include "exactcsg/solid/scaled_vertices.hpp"
 #include "exactcsg/support/error.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/number/bucket_sort.hpp"
 #include "exactcsg/solid/in_parallel_counting.hpp"
 #include "exactcsg/support/give_up.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Expected orders: those of std::sort.
-#include "exactcsg/solid/bucket_sort.hpp"
+#include "exactcsg/number/bucket_sort.hpp"
 
 #include <gtest/gtest.h>
 
