@@ -386,6 +386,57 @@ TEST(Evaluate, FacetsThatOnlyWallsCutStayWhole) {
   EXPECT_EQ(volume(holes), 25 * 11 * 11 - 12 * 81);
 }
 
+// Upright prisms with their corners on a parabola; n + 2 facets. No two have a plane in common.
+Polyhedron parabolic_prism(std::uint32_t n, int shift) {
+  Polyhedron prism;
+  Facet base;
+  Facet top;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const Rational x = Rational(i) + Rational(shift, 7);
+    const Rational y = Rational(i * i) + Rational(shift, 11);
+    prism.vertices.push_back({x, y, shift});
+    prism.vertices.push_back({x, y, shift + 9});
+    const std::uint32_t next = (i + 1) % n;
+    prism.facets.push_back({2 * i, 2 * next, 2 * next + 1, 2 * i + 1});
+    base.insert(base.begin(), 2 * i);
+    top.push_back(2 * i + 1);
+  }
+  prism.facets.push_back(base);
+  prism.facets.push_back(top);
+  return prism;
+}
+
+// All facets reach the root cell, and only they say whether it is divided.
+std::uint64_t cells_of_union(const std::vector<std::uint32_t>& facet_counts,
+                             const EvaluateOptions& options = {}) {
+  std::vector<Solid> prisms;
+  for (const std::uint32_t count : facet_counts) {
+    const Polyhedron prism = parabolic_prism(count - 2, static_cast<int>(prisms.size()));
+    prisms.push_back(Solid::primitive({make_convex_polytope(prism)}));
+  }
+  return evaluate(Solid::compose(csg::BooleanOperator::Union, prisms), options).statistics.cells;
+}
+
+// One cell as long as the facets are no more than 10/6 of `facets_per_cell` where two convex
+// primitives have them, 7/6 where three have, and `facets_per_cell` itself otherwise: of 24, these
+// are 40 and 28; of 12, 20 and 14. With one more there are at least two cells.
+TEST(Evaluate, CellsOfTwoOrThreeConvexPrimitivesMayBeLarger) {
+  EXPECT_EQ(cells_of_union({20, 20}), 1U);
+  EXPECT_GE(cells_of_union({20, 21}), 2U);
+  EXPECT_EQ(cells_of_union({9, 9, 10}), 1U);
+  EXPECT_GE(cells_of_union({9, 10, 10}), 2U);
+  EXPECT_EQ(cells_of_union({6, 6, 6, 6}), 1U);
+  EXPECT_GE(cells_of_union({6, 6, 6, 7}), 2U);
+  EvaluateOptions half;
+  half.facets_per_cell = 12;
+  EXPECT_EQ(cells_of_union({10, 10}, half), 1U);
+  EXPECT_GE(cells_of_union({10, 11}, half), 2U);
+  // A mesh's cells stay small, however few its facets are.
+  const Solid polytope = Solid::primitive({make_convex_polytope(parabolic_prism(18, 0))});
+  const Solid mesh = Solid::primitive({make_mesh(parabolic_prism(18, 1))});
+  EXPECT_GE(evaluate(csg::unite(polytope, mesh)).statistics.cells, 2U);
+}
+
 // An L-shaped mesh against boxes: volumes by hand (the L has volume 3).
 TEST(Evaluate, MeshesAreLeavesToo) {
   Polyhedron l;
