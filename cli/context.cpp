@@ -62,6 +62,7 @@ io::Model read(Context& context, const std::filesystem::path& file) {
   io::ReadOptions options;
   options.progress = &context.progress();
   options.fill = context.common().fill;
+  options.threads = context.common().threads;
   context.progress().begin("read", 0);
   io::Model model = io::read_model(file, options);
   if (facets_of(model.solid) > few_facets) use_huge_pages();

@@ -60,6 +60,7 @@ struct ReadOptions {
   // such rule.
   std::optional<FillRule> fill{};
   Progress* progress = nullptr;
+  unsigned threads = 1;  // for the checks of meshes, as in EvaluateOptions
 };
 
 // THROWS Error with a position for everything that is wrong with the text.

@@ -111,7 +111,7 @@ Model read_mesh(const fs::path& file, const ReadOptions& options) {
                             [&](const std::string& text) {
                               model.warnings.push_back({text, position});
                             },
-                            options.progress};
+                            options.progress, options.threads};
     model.solid = openscad::solid_of_polyhedron({std::move(soup.vertices), std::move(soup.facets)},
                                                 inside, file.string());
   } catch (const Error& error) {

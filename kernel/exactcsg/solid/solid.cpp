@@ -4,11 +4,12 @@
 #include <array>
 #include <unordered_map>
 
+#include "exactcsg/solid/primitive_in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg {
 
-Solid apply(const AffineMap& map, const Solid& solid) {
+Solid apply(const AffineMap& map, const Solid& solid, unsigned threads) {
   if (determinant(map) == 0) {
     throw Error(ErrorId::SingularMap, {"a matrix of determinant 0", "an invertible matrix"});
   }
@@ -19,11 +20,11 @@ Solid apply(const AffineMap& map, const Solid& solid) {
       images;
   return csg::map(solid, [&](const Primitive& primitive) {
     const StoredPolyhedron* polyhedron = polyhedron_of(primitive);
-    if (polyhedron == nullptr) return apply(map, primitive);
+    if (polyhedron == nullptr) return apply(map, primitive, threads);
     auto& known = images[primitive.shape.index()];
     const auto found = known.find(polyhedron);
     if (found != known.end()) return Primitive{found->second, primitive.origin};
-    Primitive image = apply(map, primitive);
+    Primitive image = apply(map, primitive, threads);
     known.emplace(polyhedron, image.shape);
     return image;
   });

@@ -12,7 +12,8 @@ namespace exactcsg {
 using Solid = csg::Tree<Primitive, csg::BooleanOperator>;
 
 // The image of a solid under an invertible map: every primitive mapped. A primitive or subtree that
-// occurs several times is mapped once. THROWS Error(SingularMap)
-Solid apply(const AffineMap& map, const Solid& solid);
+// occurs several times is mapped once. threads: as in EvaluateOptions, for the vertices of each.
+// THROWS Error(SingularMap)
+Solid apply(const AffineMap& map, const Solid& solid, unsigned threads = 1);
 
 }  // namespace exactcsg

@@ -309,6 +309,7 @@ std::optional<io::Model> read_on_grid(const io::Model& model, const fs::path& cs
   read.folder = folder;
   read.rounding = io::Rounding::OpenScadGrid;
   read.progress = options.progress;
+  read.threads = options.threads;
   try {
     return io::read_openscad_csg(read_text(csg), model.name, read);
   } catch (const Error& error) {

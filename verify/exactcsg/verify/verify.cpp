@@ -194,6 +194,7 @@ class Verification {
     io::ReadOptions read;
     read.rounding = io::Rounding::OpenScadGrid;
     read.progress = options_.progress;
+    read.threads = options_.threads;
     try {
       gridded_ = evaluate(io::read_model(options_.source, read).solid, evaluate_options());
     } catch (const Error& error) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "exactcsg/io/mesh/solid_of_boundary.hpp"
+#include "exactcsg/solid/primitive_in_parallel.hpp"
 
 namespace exactcsg::io {
 
@@ -16,9 +17,9 @@ bool rule_decides(const Error& error) {
 }  // namespace
 
 Solid solid_of_mesh(Polyhedron polyhedron, const InsideRule& inside) {
-  if (!inside.rule) return Solid::primitive({make_mesh(std::move(polyhedron))});
+  if (!inside.rule) return Solid::primitive({make_mesh(std::move(polyhedron), inside.threads)});
   try {
-    return Solid::primitive({make_mesh(polyhedron)});
+    return Solid::primitive({make_mesh(polyhedron, inside.threads)});
   } catch (const Error& error) {
     if (!rule_decides(error)) throw;
     if (inside.warn) {
@@ -28,6 +29,7 @@ Solid solid_of_mesh(Polyhedron polyhedron, const InsideRule& inside) {
   }
   EvaluateOptions options;
   options.progress = inside.progress;
+  options.threads = inside.threads;
   return solid_of_boundary(filled_boundary(std::move(polyhedron), *inside.rule, options));
 }
 

@@ -19,6 +19,7 @@ struct InsideRule {
   std::optional<FillRule> rule{};
   std::function<void(const std::string&)> warn{};  // told that the rule was needed, if given
   Progress* progress = nullptr;
+  unsigned threads = 1;  // as in EvaluateOptions
 };
 
 // LAW mesh.1  a mesh that make_mesh accepts is that mesh, whatever the rule.

@@ -15,6 +15,7 @@
 #include "exactcsg/io/planar/unions.hpp"
 #include "exactcsg/number/products.hpp"
 #include "exactcsg/solid/evaluate.hpp"
+#include "exactcsg/solid/primitive_in_parallel.hpp"
 
 namespace exactcsg::io::openscad {
 
@@ -186,7 +187,8 @@ class ExactBuilder {
         warnings_(warnings),
         files_(options.folder),
         fill_(options.fill),
-        progress_(options.progress) {}
+        progress_(options.progress),
+        threads_(options.threads) {}
 
   Context root() const { return identity_; }
 
@@ -527,7 +529,7 @@ class ExactBuilder {
     if (placement.singular || solid.is_empty()) return Solid::empty();
     if (placement.space == AffineMap::identity()) return solid;
     rounding_ *= stretch(placement.space);
-    return apply(placement.space, solid);
+    return apply(placement.space, solid, threads_);
   }
 
   PlanarTree moved(const PlanarTree& tree, const Placement& placement, std::uint32_t node) {
@@ -699,12 +701,12 @@ class ExactBuilder {
     Solid solid = solid_of_polyhedron(points, inside_rule(node), origin(node));
     if (placement.singular) return Solid::empty();
     if (placement.space == AffineMap::identity()) return solid;
-    return exactcsg::apply(placement.space, solid);
+    return exactcsg::apply(placement.space, solid, threads_);
   }
 
   InsideRule inside_rule(std::uint32_t node) {
     return {fill_, [this, node](const std::string& text) { warnings_.add(text, position(node)); },
-            progress_};
+            progress_, threads_};
   }
 
   Solid imported(std::uint32_t node, const Placement& placement) {
@@ -724,7 +726,9 @@ class ExactBuilder {
     ++primitives_;
     if (placement.singular) return Solid::empty();
     Primitive primitive{make_mesh_unchecked({std::move(field.points), std::move(field.faces)}), {}};
-    if (placement.space != AffineMap::identity()) primitive = apply(placement.space, primitive);
+    if (placement.space != AffineMap::identity()) {
+      primitive = apply(placement.space, primitive, threads_);
+    }
     primitive.origin = origin(node);
     return Solid::primitive(std::move(primitive));
   }
@@ -822,6 +826,7 @@ class ExactBuilder {
   NamedFiles files_;
   std::optional<FillRule> fill_;
   Progress* progress_;
+  unsigned threads_;
   ShapeCache shapes_;
   TextOutlines texts_;
   std::size_t primitives_ = 0;

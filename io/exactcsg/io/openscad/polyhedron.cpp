@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "exactcsg/io/planar/planar.hpp"
+#include "exactcsg/solid/primitive_in_parallel.hpp"
 #include "exactcsg/support/error.hpp"
 
 namespace exactcsg::io::openscad {
@@ -373,10 +374,10 @@ std::optional<Primitive> only_primitive(const Solid& solid) {
 }  // namespace
 
 Primitive make_polyhedron(const FacedPoints& input,
-                          const std::function<void(const std::string&)>& warn) {
+                          const std::function<void(const std::string&)>& warn, unsigned threads) {
   Polyhedron polyhedron = with_convex_facets(input, warn, false);
   if (auto convex = as_convex_polytope(polyhedron)) return Primitive{*std::move(convex)};
-  return Primitive{make_mesh(std::move(polyhedron))};
+  return Primitive{make_mesh(std::move(polyhedron), threads)};
 }
 
 Solid solid_of_polyhedron(const FacedPoints& input, const InsideRule& inside,
@@ -393,7 +394,7 @@ Solid solid_of_polyhedron(const FacedPoints& input, const InsideRule& inside,
     primitive = convex ? Primitive{*std::move(convex)}
                        : only_primitive(solid_of_mesh(std::move(polyhedron), inside));
   } else {
-    primitive = make_polyhedron(input, inside.warn);
+    primitive = make_polyhedron(input, inside.warn, inside.threads);
   }
   if (!primitive) return Solid::empty();
   primitive->origin = origin;

@@ -32,12 +32,13 @@ struct FacedPoints {
   std::vector<std::vector<std::uint32_t>> faces;
 };
 
-// `warn` is told of faces that were dropped or split.
+// `warn` is told of faces that were dropped or split. threads: as in EvaluateOptions.
 // THROWS Error(DegenerateFacet | OpenMesh | InvertedMesh | SelfIntersectingMesh | UnknownVertex |
 //              FlatPolytope)
 // COST: O(n log n) expected, O(m^2) signs for a non-convex face of m vertices.
 Primitive make_polyhedron(const FacedPoints& input,
-                          const std::function<void(const std::string&)>& warn);
+                          const std::function<void(const std::string&)>& warn,
+                          unsigned threads = 1);
 
 // The same with a rule for the inside, if one is given: then a polyhedron that meets itself or is
 // inside out is decided by it, and faces whose outlines cross themselves are split round a point

@@ -4,6 +4,7 @@
 
 #include "exactcsg/io/planar/outline.hpp"
 #include "exactcsg/io/planar/substitute.hpp"
+#include "exactcsg/solid/primitive_in_parallel.hpp"
 
 namespace exactcsg::io {
 
@@ -299,8 +300,8 @@ Solid swept_solid(const Section& section, const std::vector<Level>& levels,
   const auto& top = levels.back().scale;
   const bool ridge = (top[0] == 0) != (top[1] == 0);
   try {
-    return Solid::primitive(
-        {make_mesh(sweep_through(section, levels, extrusion, RidgeDiagonals::OfOpenScad))});
+    return Solid::primitive({make_mesh(
+        sweep_through(section, levels, extrusion, RidgeDiagonals::OfOpenScad), inside.threads)});
   } catch (const Error& error) {
     if (error.id() != ErrorId::SelfIntersectingMesh || (!ridge && !inside.rule)) throw;
   }
