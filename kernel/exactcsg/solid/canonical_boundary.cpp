@@ -200,7 +200,8 @@ class Merger {
             in_general_position_[number] = piece.in_general_position ? 1 : 0;
             if (piece.is_hole) faces_.unite(number - 1, number);
           },
-          AskForFacet{*this}, AskForCorners{scene_});
+          AskForFacet{*this}, AskForCorners{scene_},
+          AskForPoints<VertexNumber>{*this, interned.number_of_point});
     });
     touchable_edges_ = joined(threads_, std::move(touchable_edges));
     statistics_pieces_ = pieces.size();
@@ -222,7 +223,7 @@ class Merger {
     const Merger& merger;
     void operator()(const BoundaryPiece& piece) const {
       __builtin_prefetch(&merger.scene_.facets[piece.facet]);
-      merger.settled_.prefetch(piece);
+      merger.settled_.prefetch(piece.plane.plane);
     }
   };
   struct AskForCorners {
@@ -231,6 +232,20 @@ class Merger {
       if (piece.share != facet_share::whole) return;
       const SceneFacet& facet = scene.facets[piece.facet];
       if (!facet.is_half_space) __builtin_prefetch(scene.corners.data() + facet.first_corner);
+    }
+  };
+
+  // of_point: what is read of each corner, by point
+  template <class OfPoint>
+  struct AskForPoints {
+    const Merger& merger;
+    const std::vector<OfPoint>& of_point;
+    void operator()(const BoundaryPiece& piece) const {
+      if (piece.share != facet_share::whole) return;
+      for (const PointCorner& corner : merger.corners_of_facet(piece)) {
+        __builtin_prefetch(&of_point[static_cast<std::uint32_t>(corner.point)]);
+        merger.settled_.prefetch(PlaneRef::of_table(corner.side_plane));
+      }
     }
   };
 
@@ -282,7 +297,8 @@ class Merger {
               add_corners(buffer, first_meeting_point, piece, result);
             }
           },
-          AskForFacet{*this}, AskForCorners{scene_});
+          AskForFacet{*this}, AskForCorners{scene_},
+          AskForPoints<CornerOccurrence>{*this, result.point_occurs});
       counts[part] = count;
     });
     return result;

@@ -83,6 +83,7 @@ class NumberTexts {
     }
   }
   std::size_t count() const { return texts_.size(); }
+  void prefetch(std::size_t number) const { __builtin_prefetch(&texts_[number]); }
   const Text& operator[](std::size_t number) const { return texts_[number]; }
 
   static Text text_of(std::size_t number) {
@@ -282,6 +283,10 @@ std::vector<BoundaryEdge> renamed_edges(const Boundary& boundary,
   return edges;
 }
 
+// How far ahead the texts of numbers are asked for.
+constexpr std::size_t lines_ahead = 16;
+constexpr std::size_t planes_ahead = 4;  // most have few sides
+
 }  // namespace
 
 std::string digest(const Boundary& boundary) {
@@ -314,7 +319,10 @@ std::string digest(const Boundary& boundary) {
     edges = renamed;
   }
   section("edges", edges.size());
-  for (const BoundaryEdge& e : edges) text.add_line<2>({&numbers[e.from], &numbers[e.to]});
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i + lines_ahead < edges.size()) numbers.prefetch(edges[i + lines_ahead].to);
+    text.add_line<2>({&numbers[edges[i].from], &numbers[edges[i].to]});
+  }
 
   const NumberedSides sides = numbered_sides(boundary, rank);
   section("planes", sides.planes().size());
@@ -322,6 +330,12 @@ std::string digest(const Boundary& boundary) {
   for (std::size_t plane = 0; plane < sides.planes().size(); ++plane) {
     const NumberTexts::Text plane_text =
         plane < numbers.count() ? numbers[plane] : NumberTexts::text_of(plane);
+    if (plane + planes_ahead < sides.planes().size()) {
+      const SidesOfPlane ahead = sides.planes()[plane + planes_ahead];
+      for (const Side side : ahead.first(std::min(ahead.size(), lines_ahead))) {
+        numbers.prefetch(side.to());
+      }
+    }
     for (const Side side : sides.planes()[plane]) {
       text.add_line<3>({&plane_text, &numbers[side.from()], &numbers[side.to()]});
     }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "exactcsg/number/bucket_sort.hpp"
+#include "exactcsg/solid/faces_ahead.hpp"
 
 namespace exactcsg {
 
@@ -17,12 +18,17 @@ class SidesByPlane {
   SidesByPlane(const Boundary& boundary, std::span<const std::uint32_t> rename,
                SideDirection direction)
       : end_(boundary.plane_count + std::size_t{1}) {
-    for (const BoundaryFace& face : boundary.faces) {
+    for (std::size_t i = 0; i < boundary.faces.size(); ++i) {
+      ask_for_faces_after(boundary.faces, i, [](std::uint32_t) {});
+      const BoundaryFace& face = boundary.faces[i];
       for (const auto& loop : face.loops) end_[face.plane + std::size_t{1}] += loop.size();
     }
     std::partial_sum(end_.begin(), end_.end(), end_.begin());
     sides_.resize(end_.back());
-    for (const BoundaryFace& face : boundary.faces) {
+    for (std::size_t i = 0; i < boundary.faces.size(); ++i) {
+      ask_for_faces_after(boundary.faces, i,
+                          [&](std::uint32_t vertex) { __builtin_prefetch(&rename[vertex]); });
+      const BoundaryFace& face = boundary.faces[i];
       for (const auto& loop : face.loops) add_loop(face.plane, loop, rename, direction);
     }
     for (std::uint32_t plane = 0; plane < boundary.plane_count; ++plane) {

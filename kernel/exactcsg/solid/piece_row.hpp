@@ -4,6 +4,7 @@
 // The pieces of many buffers in one row, numbered. Internal to the evaluator. [Exact]
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,24 +29,23 @@ class PieceRow {
   std::size_t meeting_point_count() const { return first_meeting_point_.back(); }
 
   // visit(buffer, place of its first meeting point among all, piece, number of the piece) for the
-  // pieces with these numbers. ask_early(piece) and ask_late(piece) are called some pieces before
-  // that, in this order, to ask for the memory that visit will read.
-  template <class Visit, class AskEarly, class AskLate>
-  void for_each(std::size_t begin, std::size_t end, Visit visit, AskEarly ask_early,
-                AskLate ask_late) const {
+  // pieces with these numbers. Each ask(piece) is called some pieces before that, in the order in
+  // which they are given, to ask for the memory that the next one and visit will read.
+  template <class Visit, class... Ask>
+  void for_each(std::size_t begin, std::size_t end, Visit visit, Ask... ask) const {
     constexpr std::size_t distance = 6;
     Place place = place_of(begin);
-    Place late = place;
-    Place early = place;
-    std::size_t asked_late = begin;
-    std::size_t asked_early = begin;
+    std::array<Ahead, sizeof...(Ask)> ahead;
+    ahead.fill({place, begin});
     for (std::size_t number = begin; number < end; ++number) {
-      for (; asked_early < std::min(end, number + 2 * distance); ++asked_early) {
-        ask_early(next_piece(early));
-      }
-      for (; asked_late < std::min(end, number + distance); ++asked_late) {
-        ask_late(next_piece(late));
-      }
+      std::size_t stage = 0;
+      const auto go_ahead = [&](const auto& ask_for) {
+        const std::size_t asked_end = std::min(end, number + (ahead.size() - stage) * distance);
+        for (Ahead& here = ahead[stage++]; here.number < asked_end; ++here.number) {
+          ask_for(next_piece(here.place));
+        }
+      };
+      (go_ahead(ask), ...);
       const BoundaryPiece& piece = next_piece(place);
       visit(buffers_[place.buffer], first_meeting_point_[place.buffer], piece,
             static_cast<PieceNumber>(number));
@@ -57,6 +57,11 @@ class PieceRow {
   struct Place {
     std::size_t buffer;
     std::size_t piece;
+  };
+
+  struct Ahead {
+    Place place;
+    std::size_t number;  // of the next piece to be asked for
   };
 
   Place place_of(std::size_t number) const {

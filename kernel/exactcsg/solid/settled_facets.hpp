@@ -30,10 +30,8 @@ class SettledFacets {
   bool is_settled(PlaneRef plane) const {
     return !plane.is_wall() && planes_[plane.table_index()] != Emitted::NotWhole;
   }
-  // Asks for what is_settled(piece) reads.
-  void prefetch(const BoundaryPiece& piece) const {
-    __builtin_prefetch(&planes_[piece.plane.plane.table_index()]);
-  }
+  // Asks for what is_settled(plane) reads. REQUIRES no wall
+  void prefetch(PlaneRef plane) const { __builtin_prefetch(&planes_[plane.table_index()]); }
   // REQUIRES is_settled(plane)
   bool is_in_general_position(PlaneRef plane) const {
     return planes_[plane.table_index()] == Emitted::InGeneralPosition;

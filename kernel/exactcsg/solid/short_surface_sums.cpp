@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "exactcsg/number/digits.hpp"
+#include "exactcsg/solid/faces_ahead.hpp"
 #include "exactcsg/solid/surface_sums.hpp"
 
 namespace exactcsg {
@@ -150,7 +151,14 @@ class ShortSummation {
   explicit ShortSummation(const ScaledVertices& vertices) : vertices_(vertices) {}
 
   SurfaceSums of(const Boundary& boundary) {
-    for (const BoundaryFace& face : boundary.faces) add_face(face);
+    for (std::size_t i = 0; i < boundary.faces.size(); ++i) {
+      ask_for_faces_after(boundary.faces, i, [&](std::uint32_t vertex) {
+        const mp_limb_t* const begin = vertices_.of(vertex);
+        __builtin_prefetch(begin);
+        __builtin_prefetch(begin + 3 * D - 1);  // in the next cache line, perhaps
+      });
+      add_face(boundary.faces[i]);
+    }
     SurfaceSums sums;
     sums.six_volumes.value = integer_of(six_volumes_);
     for (std::size_t i = 0; i < 3; ++i) sums.moments[i].value = integer_of(moments_[i]);
